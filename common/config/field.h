@@ -1,0 +1,166 @@
+// The one table an engine writes about its parameters. The TOML reader and writer, --set, `ramify params` and
+// later the viewer walk these tables; no other code names a key.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "common/base/geometry.h"
+#include "common/config/schedule.h"
+
+namespace ramify {
+
+enum class FieldKind { number, integer, seed, boolean, choice, vector, schedule, group, list, map };
+
+/// What a table says about a parameter beside its key and place. Every number has a finite range.
+struct FieldInfo {
+  double min = 0.0;
+  double max = 0.0;
+  bool is_above_min = false;              // min itself is not allowed
+  std::string unit = {};                  // empty for pure numbers
+  std::string help = {};                  // one line
+  std::string source = {};                // paper and equation
+  std::vector<std::string> choices = {};  // names of an enum's values 0, 1, ...
+  bool is_top_level = false;  // stands at the top of a config, not in the engine's table (seed, steps)
+  bool inherits = false;      // list: an item starts as a copy of the one before it
+};
+
+struct FieldRow;
+using Table = std::vector<FieldRow>;
+
+/// A table's row with the type of its owner erased: what the walker sees. Functions take the owner's address.
+struct FieldRow {
+  std::string key;
+  FieldKind kind = FieldKind::number;
+  FieldInfo info;
+  std::function<void*(void* owner)> member;  // address of the member; its type follows from `kind`
+  std::function<const Table&()> child;       // group, list, map: the table of what they hold
+
+  // choice
+  std::function<int(const void* member)> choice;
+  std::function<void(void* member, int value)> choose;
+  // list
+  std::function<std::size_t(const void* member)> size;
+  std::function<void*(void* member, std::size_t index)> item;
+  std::function<void(void* member)> clear;    // also of a map
+  std::function<void*(void* member)> append;  // a default item, or a copy of the last (info.inherits)
+  // map
+  std::function<std::vector<std::string>(const void* member)> names;
+  std::function<void*(void* member, const std::string& name)> named;  // made with defaults if it is new
+};
+
+/// What a struct must have to stand in a table: a table of its own.
+template <class T>
+concept HasFields = requires {
+  { T::fields() } -> std::same_as<const Table&>;
+};
+
+/// {key, member, info}: a row of the table of P. Members may be double, int, std::uint64_t (a seed), bool, an
+/// enum, Vec3, Schedule, a struct with a table of its own, a vector of such or a map of named ones.
+template <class P>
+struct Field : FieldRow {
+  template <class M>
+  Field(std::string field_key, M P::*field_member, FieldInfo field_info) {
+    key = std::move(field_key);
+    info = std::move(field_info);
+    member = [field_member](void* owner) -> void* { return &(static_cast<P*>(owner)->*field_member); };
+    set_kind<M>();
+  }
+
+ private:
+  template <class M>
+  struct ListOf : std::false_type {};
+  template <class T>
+  struct ListOf<std::vector<T>> : std::true_type {
+    using Item = T;
+  };
+  template <class M>
+  struct MapOf : std::false_type {};
+  template <class T>
+  struct MapOf<std::map<std::string, T>> : std::true_type {
+    using Item = T;
+  };
+
+  template <class M>
+  void set_kind() {
+    if constexpr (std::is_same_v<M, double>) {
+      kind = FieldKind::number;
+    } else if constexpr (std::is_same_v<M, int>) {
+      kind = FieldKind::integer;
+    } else if constexpr (std::is_same_v<M, std::uint64_t>) {
+      kind = FieldKind::seed;
+    } else if constexpr (std::is_same_v<M, bool>) {
+      kind = FieldKind::boolean;
+    } else if constexpr (std::is_same_v<M, Vec3>) {
+      kind = FieldKind::vector;
+    } else if constexpr (std::is_same_v<M, Schedule>) {
+      kind = FieldKind::schedule;
+    } else if constexpr (std::is_enum_v<M>) {
+      kind = FieldKind::choice;
+      choice = [](const void* value) { return static_cast<int>(*static_cast<const M*>(value)); };
+      choose = [](void* value, int chosen) { *static_cast<M*>(value) = static_cast<M>(chosen); };
+    } else if constexpr (ListOf<M>::value) {
+      set_list<typename ListOf<M>::Item>();
+    } else if constexpr (MapOf<M>::value) {
+      set_map<typename MapOf<M>::Item>();
+    } else {
+      static_assert(HasFields<M>, "a member of this type cannot stand in a table");
+      kind = FieldKind::group;
+      child = []() -> const Table& { return M::fields(); };
+    }
+  }
+
+  template <class T>
+  void set_list() {
+    kind = FieldKind::list;
+    child = []() -> const Table& { return T::fields(); };
+    size = [](const void* list) { return static_cast<const std::vector<T>*>(list)->size(); };
+    item = [](void* list, std::size_t index) -> void* {
+      return &(*static_cast<std::vector<T>*>(list))[index];
+    };
+    clear = [](void* list) { static_cast<std::vector<T>*>(list)->clear(); };
+    append = [inherits = info.inherits](void* list) -> void* {
+      auto& items = *static_cast<std::vector<T>*>(list);
+      T added = inherits && !items.empty() ? items.back() : T{};
+      items.push_back(std::move(added));
+      return &items.back();
+    };
+  }
+
+  template <class T>
+  void set_map() {
+    kind = FieldKind::map;
+    child = []() -> const Table& { return T::fields(); };
+    names = [](const void* map) {
+      std::vector<std::string> result;
+      for (const auto& entry : *static_cast<const std::map<std::string, T>*>(map)) {
+        result.push_back(entry.first);
+      }
+      return result;
+    };
+    clear = [](void* map) { static_cast<std::map<std::string, T>*>(map)->clear(); };
+    named = [](void* map, const std::string& name) -> void* {
+      return &(*static_cast<std::map<std::string, T>*>(map))[name];
+    };
+  }
+};
+
+template <class P>
+Table make_table(std::initializer_list<Field<P>> rows) {
+  return Table(rows.begin(), rows.end());
+}
+
+/// "0 to 1", "more than 0 to 100", "true or false", "light | space": what a field allows, for messages and
+/// help.
+std::string allowed_values(const FieldRow& row);
+
+/// The nearest of `known` by edit distance, or empty if none is near enough to suggest.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
+
+}  // namespace ramify

@@ -1,0 +1,119 @@
+#include "common/skeleton/passes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/base/errors.h"
+
+namespace ramify {
+namespace {
+
+/// Length of all internodes from each node on, its own included; metres.
+std::vector<double> subtree_lengths(const Skeleton& skeleton) {
+  std::vector<double> lengths(skeleton.node_count(), 0.0);
+  for (std::size_t node = skeleton.node_count(); node-- > 0;) {
+    if (skeleton.is_root(node)) continue;
+    lengths[node] += skeleton.length(node);
+    lengths[skeleton.parent[node]] += lengths[node];
+  }
+  return lengths;
+}
+
+}  // namespace
+
+void assign_axes(Skeleton& skeleton) {
+  const std::size_t count = skeleton.node_count();
+  const std::vector<double> length = subtree_lengths(skeleton);
+  std::vector<std::uint32_t> continuation(count, kNoParent);
+  for (std::size_t node = 0; node < count; ++node) {
+    if (skeleton.is_root(node)) continue;
+    std::uint32_t& best = continuation[skeleton.parent[node]];
+    const bool leads = best == kNoParent || skeleton.diameter[node] > skeleton.diameter[best] ||
+                       (skeleton.diameter[node] == skeleton.diameter[best] && length[node] > length[best]);
+    if (leads) best = static_cast<std::uint32_t>(node);
+  }
+
+  skeleton.axis.assign(count, 0);
+  skeleton.order.assign(count, 0);
+  std::uint32_t next_axis = 0;
+  for (std::size_t node = 0; node < count; ++node) {
+    if (skeleton.is_root(node)) {
+      skeleton.axis[node] = next_axis++;
+      continue;
+    }
+    const std::uint32_t parent = skeleton.parent[node];
+    const bool continues = continuation[parent] == node;
+    skeleton.axis[node] = continues ? skeleton.axis[parent] : next_axis++;
+    skeleton.order[node] = static_cast<std::uint16_t>(skeleton.order[parent] + (continues ? 0 : 1));
+  }
+}
+
+void assign_orders(Skeleton& skeleton) {
+  skeleton.order.assign(skeleton.node_count(), 0);
+  for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
+    const std::uint32_t parent = skeleton.parent[node];
+    const bool continues = skeleton.axis[node] == skeleton.axis[parent];
+    skeleton.order[node] = static_cast<std::uint16_t>(skeleton.order[parent] + (continues ? 0 : 1));
+  }
+}
+
+std::vector<std::uint16_t> strahler_orders(const Skeleton& skeleton) {
+  const std::size_t count = skeleton.node_count();
+  std::vector<std::uint16_t> highest(count, 0);  // among the children
+  std::vector<bool> is_shared(count, false);     // by at least two of them
+  std::vector<std::uint16_t> order(count, 0);
+  for (std::size_t node = count; node-- > 0;) {
+    order[node] = static_cast<std::uint16_t>(std::max<int>(1, highest[node] + (is_shared[node] ? 1 : 0)));
+    if (skeleton.is_root(node)) continue;
+    const std::uint32_t parent = skeleton.parent[node];
+    if (order[node] == highest[parent]) is_shared[parent] = true;
+    if (order[node] > highest[parent]) {
+      highest[parent] = order[node];
+      is_shared[parent] = false;
+    }
+  }
+  return order;
+}
+
+void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model) {
+  if (!(model.exponent > 0)) {
+    throw InputError(fmt::format("pipe model: exponent {} (must be greater than 0)", model.exponent));
+  }
+  // In units of a tip's d^n the sums are counts of the tips ever borne: whole numbers, so exact in any order.
+  std::vector<std::uint64_t> tips(skeleton.node_count(), 0);
+  for (std::size_t node = skeleton.node_count(); node-- > 0;) {
+    tips[node] = std::max<std::uint64_t>(tips[node], 1);
+    if (!skeleton.is_root(node)) tips[skeleton.parent[node]] += tips[node];
+  }
+  skeleton.diameter.resize(skeleton.node_count());
+  for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
+    skeleton.diameter[node] =
+        model.tip_diameter * std::pow(static_cast<double>(tips[node]), 1.0 / model.exponent);
+  }
+  skeleton.pipe_model = model;
+}
+
+Skeleton cut_at_step(const Skeleton& history, std::uint32_t step, bool with_shed) {
+  const std::size_t count = history.node_count();
+  std::vector<bool> is_born(count);
+  for (std::size_t node = 0; node < count; ++node) is_born[node] = history.birth_step[node] <= step;
+
+  Skeleton past = subset(history, is_born);
+  for (std::uint32_t& shed : past.shed_step) {
+    if (shed > step) shed = kAlive;
+  }
+  past.light.clear();
+  past.vigour.clear();
+  if (past.pipe_model) assign_pipe_diameters(past, *past.pipe_model);
+  return with_shed ? past : living(past);
+}
+
+Skeleton living(const Skeleton& history) {
+  if (history.shed_step.empty()) return history;
+  std::vector<bool> is_alive(history.node_count());
+  for (std::size_t node = 0; node < history.node_count(); ++node) is_alive[node] = !history.is_shed(node);
+  return subset(history, is_alive);
+}
+
+}  // namespace ramify

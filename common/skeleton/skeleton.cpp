@@ -1,0 +1,166 @@
+#include "common/skeleton/skeleton.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace ramify {
+namespace {
+
+template <class T>
+std::vector<T> kept(const std::vector<T>& values, const std::vector<bool>& keep) {
+  std::vector<T> result;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (keep[i]) result.push_back(values[i]);
+  }
+  return result;
+}
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Collects sentences up to a limit.
+class Findings {
+ public:
+  explicit Findings(std::size_t limit) : limit_(limit) {}
+  template <class... Args>
+  void add(fmt::format_string<Args...> text, Args&&... args) {
+    if (!full()) sentences_.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+  bool full() const { return sentences_.size() >= limit_; }
+  bool any() const { return !sentences_.empty(); }
+  std::vector<std::string> take() { return std::move(sentences_); }
+
+ private:
+  std::size_t limit_;
+  std::vector<std::string> sentences_;
+};
+
+void check_sizes(const Skeleton& s, Findings& found) {
+  const std::size_t count = s.node_count();
+  const auto check = [&](const char* name, std::size_t size, bool may_be_empty) {
+    if (size == count || (may_be_empty && size == 0)) return;
+    found.add("skeleton: {} has {} entries (one a node: {})", name, size, count);
+  };
+  check("parent", s.parent.size(), false);
+  check("diameter", s.diameter.size(), false);
+  check("axis", s.axis.size(), false);
+  check("order", s.order.size(), false);
+  check("kind", s.kind.size(), false);
+  check("birth_step", s.birth_step.size(), true);
+  check("shed_step", s.shed_step.size(), true);
+  check("level", s.level.size(), true);
+  check("light", s.light.size(), true);
+  check("vigour", s.vigour.size(), true);
+  for (const auto& [name, values] : s.channels) check(name.c_str(), values.size(), false);
+}
+
+void check_node(const Skeleton& s, std::size_t node, std::size_t roots, Findings& found) {
+  if (!is_finite(s.position[node])) found.add("skeleton node {}: position is not finite", node);
+  if (!std::isfinite(s.diameter[node]) || s.diameter[node] <= 0) {
+    found.add("skeleton node {}: diameter {} (must be greater than 0)", node, s.diameter[node]);
+  }
+  if (node < roots) return;
+
+  const std::uint32_t parent = s.parent[node];
+  if (parent == kNoParent) {
+    found.add("skeleton node {}: a root after internodes (roots come first)", node);
+    return;
+  }
+  if (parent >= node) {
+    found.add("skeleton node {}: parent {} is not before it (nodes follow their parent)", node, parent);
+    return;
+  }
+  if (parent >= roots && s.axis[node] != s.axis[parent] && s.order[node] == 0) {
+    found.add("skeleton node {}: order 0 on a lateral axis (only the trunk has order 0)", node);
+  }
+  if (s.axis[node] == s.axis[parent] && s.order[node] != s.order[parent]) {
+    found.add("skeleton node {}: order {} on an axis of order {} (one order an axis)", node, s.order[node],
+              s.order[parent]);
+  }
+  if (!s.birth_step.empty() && s.birth_step[node] < s.birth_step[parent]) {
+    found.add("skeleton node {}: born at step {}, before its parent {} at step {}", node, s.birth_step[node],
+              parent, s.birth_step[parent]);
+  }
+  if (s.is_shed(parent) && (!s.is_shed(node) || s.shed_step[node] > s.shed_step[parent])) {
+    found.add("skeleton node {}: outlives its parent {}, shed at step {}", node, parent, s.shed_step[parent]);
+  }
+}
+
+/// An axis is a chain: no node has two children on its own axis.
+void check_chains(const Skeleton& s, std::size_t roots, Findings& found) {
+  std::vector<bool> continued(s.node_count(), false);
+  for (std::size_t node = roots; node < s.node_count(); ++node) {
+    const std::uint32_t parent = s.parent[node];
+    if (s.axis[node] != s.axis[parent]) continue;
+    if (continued[parent]) {
+      found.add("skeleton node {}: a second continuation of axis {} at node {} (an axis is a chain)", node,
+                s.axis[node], parent);
+    }
+    continued[parent] = true;
+  }
+}
+
+}  // namespace
+
+std::size_t Skeleton::root_count() const {
+  const auto first =
+      std::find_if(parent.begin(), parent.end(), [](std::uint32_t p) { return p != kNoParent; });
+  return static_cast<std::size_t>(first - parent.begin());
+}
+
+std::size_t Skeleton::axis_count() const {
+  // An internode founds an axis where its parent is a root or of another axis; a root node's axis is the
+  // trunk's, which is counted at its first internode.
+  std::unordered_set<std::uint32_t> axes;
+  for (std::size_t node = root_count(); node < node_count(); ++node) {
+    if (is_root(parent[node]) || axis[node] != axis[parent[node]]) axes.insert(axis[node]);
+  }
+  return axes.size();
+}
+
+Skeleton subset(const Skeleton& skeleton, const std::vector<bool>& keep) {
+  Skeleton result;
+  result.position = kept(skeleton.position, keep);
+  result.diameter = kept(skeleton.diameter, keep);
+  result.axis = kept(skeleton.axis, keep);
+  result.order = kept(skeleton.order, keep);
+  result.kind = kept(skeleton.kind, keep);
+  result.birth_step = kept(skeleton.birth_step, keep);
+  result.shed_step = kept(skeleton.shed_step, keep);
+  result.level = kept(skeleton.level, keep);
+  result.light = kept(skeleton.light, keep);
+  result.vigour = kept(skeleton.vigour, keep);
+  for (const auto& [name, values] : skeleton.channels) result.channels[name] = kept(values, keep);
+  result.pipe_model = skeleton.pipe_model;
+
+  std::vector<std::uint32_t> renumbered(skeleton.node_count(), kNoParent);
+  std::uint32_t next = 0;
+  for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
+    if (!keep[node]) continue;
+    renumbered[node] = next++;
+    result.parent.push_back(skeleton.is_root(node) ? kNoParent : renumbered[skeleton.parent[node]]);
+  }
+  return result;
+}
+
+std::vector<std::string> violations(const Skeleton& skeleton, std::size_t limit) {
+  Findings found(limit);
+  check_sizes(skeleton, found);
+  if (found.any()) return found.take();
+  if (skeleton.node_count() == 0) {
+    found.add("skeleton: no nodes (there is at least a root)");
+    return found.take();
+  }
+  const std::size_t roots = skeleton.root_count();
+  if (roots == 0) found.add("skeleton: node 0 has a parent (roots come first)");
+  for (std::size_t node = 0; node < skeleton.node_count() && !found.full(); ++node) {
+    check_node(skeleton, node, roots, found);
+  }
+  if (!found.any()) check_chains(skeleton, roots, found);
+  return found.take();
+}
+
+}  // namespace ramify
