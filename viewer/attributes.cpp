@@ -1,0 +1,99 @@
+#include "viewer/attributes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/errors.h"
+#include "common/skeleton/passes.h"
+#include "viewer/palette.h"
+
+namespace ramify {
+namespace {
+
+enum class Scale { categorical, linear, logarithmic };
+
+struct Attribute {
+  std::vector<double> values;  // one a node
+  Scale scale = Scale::linear;
+};
+
+template <class T>
+std::vector<double> as_numbers(const std::vector<T>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// `name` must be among color_attributes(skeleton).
+Attribute attribute(const Skeleton& skeleton, std::string_view name) {
+  if (name == "order") return {as_numbers(skeleton.order), Scale::categorical};
+  if (name == "strahler") return {as_numbers(strahler_orders(skeleton)), Scale::linear};
+  if (name == "width") return {skeleton.diameter, Scale::logarithmic};
+  if (name == "birthStep") return {as_numbers(skeleton.birth_step), Scale::linear};
+  if (name == "level") return {as_numbers(skeleton.level), Scale::categorical};
+  if (name == "light") return {as_numbers(skeleton.light), Scale::logarithmic};
+  if (name == "vigour") return {as_numbers(skeleton.vigour), Scale::logarithmic};
+  return {skeleton.channels.at(std::string(name)), Scale::linear};
+}
+
+/// On a logarithmic scale only positive values have a place; the others stand at its low end.
+std::vector<double> to_logarithms(std::vector<double> values) {
+  double least = std::numeric_limits<double>::infinity();
+  for (double value : values) {
+    if (value > 0.0) least = std::min(least, value);
+  }
+  for (double& value : values) {
+    if (!std::isnan(value)) value = std::isinf(least) ? 0.0 : std::log(std::max(value, least));
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::string> color_attributes(const Skeleton& skeleton) {
+  std::vector<std::string> names{"order", "strahler", "width"};
+  if (!skeleton.birth_step.empty()) names.emplace_back("birthStep");
+  if (!skeleton.level.empty()) names.emplace_back("level");
+  if (!skeleton.light.empty()) names.emplace_back("light");
+  if (!skeleton.vigour.empty()) names.emplace_back("vigour");
+  for (const auto& [name, values] : skeleton.channels) names.push_back(name);
+  return names;
+}
+
+std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name) {
+  const std::vector<std::string> known = color_attributes(skeleton);
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    throw InputError(
+        fmt::format("--color-by: the tree has no attribute '{}' (it has {})", name, fmt::join(known, ", ")));
+  }
+
+  auto [values, scale] = attribute(skeleton, name);
+  std::vector<Color> colors(values.size());
+  if (scale == Scale::categorical) {
+    for (std::size_t node = 0; node < values.size(); ++node) {
+      colors[node] = categorical_color(static_cast<std::size_t>(values[node]));
+    }
+    return colors;
+  }
+
+  // Root nodes bear no internode: what they hold must not stretch the scale.
+  for (std::size_t node = 0; node < values.size(); ++node) {
+    if (skeleton.is_root(node)) values[node] = std::numeric_limits<double>::quiet_NaN();
+  }
+  if (scale == Scale::logarithmic) values = to_logarithms(std::move(values));
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  for (double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  for (std::size_t node = 0; node < values.size(); ++node) {
+    colors[node] = sequential_color(high > low ? (values[node] - low) / (high - low) : values[node] - low);
+  }
+  return colors;
+}
+
+}  // namespace ramify

@@ -1,0 +1,331 @@
+#include "viewer/painter.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "common/mesh/mesh.h"
+#include "common/skeleton/skeleton.h"
+#include "viewer/shaders.h"
+#include "viewer/sky_light.h"
+
+namespace ramify {
+namespace {
+
+// Attribute locations in the shaders.
+constexpr GLuint kPosition = 0;
+constexpr GLuint kNormal = 1;
+constexpr GLuint kColor = 2;
+
+// Texture units.
+constexpr int kSunDepthUnit = 0;
+constexpr int kCoverageUnit = 1;
+constexpr int kSkyUnit = 2;
+
+// The sky of pictures without a background of their own, and the ground under it.
+constexpr Color kSkyTop = color_of(0xc6d3dd);
+constexpr Color kSkyBottom = color_of(0xedecea);
+constexpr Color kGround = color_of(0xe3e0da);
+constexpr Color kInk = color_of(0x2b2b2b);
+
+// The ground fades out this far from the tree, in parts of the tree's size.
+constexpr double kGroundReach = 3.5;
+
+float linear_of(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+Vec3f linear_of(const Color& color) {
+  return {linear_of(color.r), linear_of(color.g), linear_of(color.b)};
+}
+
+/// Linear, alpha multiplied in.
+glm::vec4 as_light(const Color& color) {
+  return {linear_of(color) * color.a, color.a};
+}
+
+/// `data` as the vertex attribute at `location` of the vertex array that is bound; `advance` 1: one an
+/// instance.
+template <class T>
+void add_attribute(GLuint location, const GlBuffer& buffer, std::span<const T> data, GLint components,
+                   GLenum type, GLuint advance = 0) {
+  upload(buffer, data);
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, components, type, type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE, 0,
+                        nullptr);
+  glVertexAttribDivisor(location, advance);
+}
+
+void bind_texture(int unit, GLenum target, const GlTexture& texture) {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(target, texture.id());
+}
+
+/// Maps the part of the picture that the viewport shows to the whole of clip space.
+glm::dmat4 cropped(const Viewport& viewport) {
+  const glm::dvec2 scale = 1.0 / (viewport.high - viewport.low);
+  const glm::dvec2 middle = viewport.low + viewport.high - 1.0;
+  return glm::translate(glm::scale(glm::dmat4(1.0), Vec3(scale, 1.0)), Vec3(-middle, 0.0));
+}
+
+glm::mat4 moved(const glm::dmat4& world_to_clip, const Vec3& origin) {
+  return glm::mat4(glm::translate(world_to_clip, origin));
+}
+
+}  // namespace
+
+Painter::Painter()
+    : background_("background", shaders::screen_vertex(), shaders::background_fragment()),
+      caster_("caster", shaders::caster_vertex(), shaders::caster_fragment()),
+      flat_("flat", shaders::flat_vertex(), shaders::flat_fragment()),
+      lit_("lit", shaders::lit_vertex(), shaders::lit_fragment()),
+      ground_("ground", shaders::ground_vertex(), shaders::ground_fragment()),
+      line_("line", shaders::line_vertex(), shaders::line_fragment()) {}
+
+void Painter::load(const Scene& scene, const RenderOptions& options) {
+  options_ = options;
+  tree_ = Batch();
+  figure_ = Batch();
+  figure_corners_.clear();
+  bar_ = Batch();
+  base_ = base_of(scene);
+  ground_reach_ = 0.0;
+  if (options.style == RenderStyle::skeleton) {
+    load_lines(scene);
+    return;
+  }
+  load_mesh(scene);
+  if (options.style == RenderStyle::lit) load_sky_light(scene);
+}
+
+void Painter::load_mesh(const Scene& scene) {
+  const std::vector<ColorBytes> colors = vertex_colors(scene, options_);
+  if (scene.mesh == nullptr || scene.mesh->triangles.empty()) return;
+  const Mesh& mesh = *scene.mesh;
+  glBindVertexArray(tree_.vertices.id());
+  add_attribute<Vec3f>(kPosition, tree_.positions, mesh.positions, 3, GL_FLOAT);
+  if (options_.style == RenderStyle::lit) {
+    add_attribute<Vec3f>(kNormal, tree_.normals, mesh.normals, 3, GL_FLOAT);
+  }
+  add_attribute<ColorBytes>(kColor, tree_.colors, colors, 4, GL_UNSIGNED_BYTE);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, tree_.indices.id());
+  const std::size_t byte_count = mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(byte_count), mesh.triangles.data(),
+               GL_STATIC_DRAW);
+  for (const MaterialRange& range : mesh.ranges) {
+    // The mesher's branches are closed; a file's need not be, and leaves have two sides.
+    const bool is_closed = scene.skeleton != nullptr && range.material == "bark";
+    tree_.ranges.push_back({3 * range.first_triangle, static_cast<int>(3 * range.triangle_count), is_closed});
+  }
+  glBindVertexArray(0);
+}
+
+void Painter::load_lines(const Scene& scene) {
+  const std::vector<ColorBytes> of_node = node_colors(scene, options_);
+  const Skeleton& skeleton = *scene.skeleton;
+  std::vector<Vec3f> starts;
+  std::vector<Vec3f> ends;
+  std::vector<ColorBytes> colors;
+  for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
+    starts.emplace_back(skeleton.position[skeleton.parent[node]] - base_);
+    ends.emplace_back(skeleton.position[node] - base_);
+    colors.push_back(of_node[node]);
+  }
+  if (starts.empty()) return;
+  tree_.origin = base_;
+  tree_.count = static_cast<int>(starts.size());
+  glBindVertexArray(tree_.vertices.id());
+  add_attribute<Vec3f>(kPosition, tree_.positions, starts, 3, GL_FLOAT, 1);
+  add_attribute<Vec3f>(kNormal, tree_.normals, ends, 3, GL_FLOAT, 1);
+  add_attribute<ColorBytes>(kColor, tree_.colors, colors, 4, GL_UNSIGNED_BYTE, 1);
+  glBindVertexArray(0);
+}
+
+void Painter::load_sky_light(const Scene& scene) {
+  SkyLight sky;
+  if (scene.mesh != nullptr) sky = sky_light(*scene.mesh, base_.y);
+  double size = 1.0;
+  if (sky.visibility.empty()) {
+    sky.box = {base_, base_ + 1.0};
+    sky.size = Coord(1);
+    sky.visibility = {255};
+  } else {
+    const Vec3 extent = sky.box.size();
+    size = std::max({extent.x, extent.y, extent.z});
+  }
+  ground_reach_ = kGroundReach * size;
+  world_to_sky_ = glm::mat4(glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / sky.box.size()), -sky.box.low));
+
+  bind_texture(kSkyUnit, GL_TEXTURE_3D, sky_visibility_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, sky.size.x, sky.size.y, sky.size.z, 0, GL_RED, GL_UNSIGNED_BYTE,
+               sky.visibility.data());
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    glTexParameteri(GL_TEXTURE_3D, direction, GL_CLAMP_TO_EDGE);
+  }
+}
+
+void Painter::load_annotations(const Annotations& annotations, const Vec3& base, const CameraAxes& axes) {
+  figure_ = flat_batch(annotations.figure, axes);
+  figure_.origin = base;
+  bar_ = flat_batch(annotations.bar, axes);
+  bar_.origin = base;
+  for (const Vec2f& corner : annotations.figure) {
+    figure_corners_.emplace_back(base + axes.world(Vec3(corner, 0.0)));
+  }
+}
+
+Painter::Batch Painter::flat_batch(const std::vector<Vec2f>& corners, const CameraAxes& axes) const {
+  std::vector<Vec3f> positions;
+  for (const Vec2f& corner : corners) positions.emplace_back(axes.world(Vec3(corner, 0.0)));
+  const ColorBytes ink = color_bytes(options_.style == RenderStyle::lit ? kInk : Color());
+  const std::vector<ColorBytes> colors(corners.size(), ink);
+  Batch batch;
+  glBindVertexArray(batch.vertices.id());
+  add_attribute<Vec3f>(kPosition, batch.positions, positions, 3, GL_FLOAT);
+  add_attribute<ColorBytes>(kColor, batch.colors, colors, 4, GL_UNSIGNED_BYTE);
+  glBindVertexArray(0);
+  batch.count = static_cast<int>(corners.size());
+  return batch;
+}
+
+void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size) {
+  std::span<const Vec3f> tree;
+  if (scene.mesh != nullptr) tree = scene.mesh->positions;
+  sun_ = sun_view(sun, tree, figure_corners_, base_.y);
+  if (!shadow_map_ || shadow_map_->size() != map_size) shadow_map_ = std::make_unique<ShadowMap>(map_size);
+
+  shadow_map_->begin();
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  caster_.use();
+  cast(tree_);
+  cast(figure_);
+  shadow_map_->finish();
+}
+
+void Painter::cast(const Batch& batch) const {
+  caster_.set("world_to_map", moved(sun_.world_to_map, batch.origin));
+  caster_.set("ground", static_cast<float>(base_.y - batch.origin.y));
+  draw_triangles(batch);
+}
+
+bool Painter::has_ground(const Camera& camera) const {
+  const bool is_opaque = !options_.background || options_.background->a >= 1.0f;
+  // From below it would hide the tree.
+  const bool is_above = camera.is_parallel ? camera.axes.back.y > 0.0 : camera.eye.y > base_.y;
+  return options_.style == RenderStyle::lit && is_opaque && is_above;
+}
+
+void Painter::draw(const Camera& camera, const Viewport& viewport) {
+  const glm::dmat4 world_to_clip = cropped(viewport) * camera.world_to_clip();
+  glViewport(0, 0, viewport.width, viewport.height);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glClearDepth(1.0);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  draw_background(viewport);
+
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  if (options_.style == RenderStyle::skeleton) {
+    draw_lines(world_to_clip, viewport);
+  } else {
+    draw_tree(world_to_clip);
+  }
+  draw_flat(figure_, world_to_clip);
+  if (has_ground(camera)) draw_ground(world_to_clip);
+  glDisable(GL_DEPTH_TEST);
+  draw_flat(bar_, world_to_clip);
+  glBindVertexArray(0);
+}
+
+void Painter::draw_background(const Viewport& viewport) const {
+  glm::vec4 bottom = as_light(options_.background.value_or(color_of(0xffffff)));
+  glm::vec4 top = bottom;
+  if (!options_.background && options_.style == RenderStyle::lit) {
+    bottom = as_light(kSkyBottom);
+    top = as_light(kSkyTop);
+  }
+  background_.use();
+  background_.set("bottom", bottom);
+  background_.set("top", top);
+  background_.set("part", Vec2f(viewport.low.y, viewport.high.y));
+  glBindVertexArray(no_vertices_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Painter::draw_tree(const glm::dmat4& world_to_clip) const {
+  const GlProgram& program = options_.style == RenderStyle::lit ? lit_ : flat_;
+  program.use();
+  program.set("world_to_clip", moved(world_to_clip, tree_.origin));
+  if (options_.style == RenderStyle::lit) {
+    set_light(program);
+    bind_texture(kSunDepthUnit, GL_TEXTURE_2D, shadow_map_->depth());
+    program.set("sun_depth", kSunDepthUnit);
+    program.set("texel", static_cast<float>(std::max(sun_.size.x, sun_.size.y) / shadow_map_->size()));
+  }
+  draw_triangles(tree_);
+}
+
+void Painter::draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const {
+  line_.use();
+  line_.set("world_to_clip", moved(world_to_clip, tree_.origin));
+  line_.set("viewport", Vec2f(viewport.width, viewport.height));
+  line_.set("half_width", static_cast<float>(viewport.line_width / 2.0));
+  glBindVertexArray(tree_.vertices.id());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tree_.count);
+}
+
+void Painter::draw_ground(const glm::dmat4& world_to_clip) const {
+  ground_.use();
+  ground_.set("world_to_clip", glm::mat4(world_to_clip));
+  ground_.set("middle", Vec3f(base_));
+  ground_.set("reach", static_cast<float>(ground_reach_));
+  ground_.set("paint", linear_of(options_.background.value_or(kGround)));
+  ground_.set("penumbra", static_cast<float>(kPenumbra));
+  set_light(ground_);
+  bind_texture(kCoverageUnit, GL_TEXTURE_2D, shadow_map_->coverage());
+  ground_.set("shade", kCoverageUnit);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glBindVertexArray(no_vertices_.id());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glDisable(GL_BLEND);
+}
+
+void Painter::draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) const {
+  flat_.use();
+  flat_.set("world_to_clip", moved(world_to_clip, batch.origin));
+  draw_triangles(batch);
+}
+
+void Painter::draw_triangles(const Batch& batch) {
+  glBindVertexArray(batch.vertices.id());
+  glDrawArrays(GL_TRIANGLES, 0, batch.count);
+  for (const Range& range : batch.ranges) {
+    if (range.is_closed) glEnable(GL_CULL_FACE);
+    const void* offset = reinterpret_cast<const void*>(range.first * sizeof(std::uint32_t));
+    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, offset);
+    glDisable(GL_CULL_FACE);
+  }
+}
+
+void Painter::set_light(const GlProgram& program) const {
+  program.set("to_sun", Vec3f(sun_.axes.back));
+  program.set("world_to_map", glm::mat4(sun_.world_to_map));
+  program.set("map_size", Vec2f(sun_.size));
+  program.set("map_depth", static_cast<float>(sun_.depth));
+  program.set("world_to_sky", world_to_sky_);
+  program.set("sky_visibility", kSkyUnit);
+  bind_texture(kSkyUnit, GL_TEXTURE_3D, sky_visibility_);
+}
+
+}  // namespace ramify

@@ -1,0 +1,105 @@
+// Draws a scene with OpenGL into whichever framebuffer is bound: an off-screen one or a window's. Light is
+// linear and alpha multiplied in; whoever owns the framebuffer encodes it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "viewer/annotations.h"
+#include "viewer/camera.h"
+#include "viewer/gl_objects.h"
+#include "viewer/scene.h"
+#include "viewer/shadow_map.h"
+#include "viewer/sunlight.h"
+
+namespace ramify {
+
+/// The part of a picture that a framebuffer takes up.
+struct Viewport {
+  int width = 0;  // pixels of the framebuffer
+  int height = 0;
+  glm::dvec2 low{0.0};  // lower left corner in the whole picture, which runs from 0 to 1
+  glm::dvec2 high{1.0};
+  double line_width = 1.5;  // of the style skeleton, pixels
+};
+
+class Painter {
+ public:
+  /// Needs a current OpenGL 3.3 context, the same one in every call. Throws GraphicsError.
+  Painter();
+
+  /// Takes over what `options` show of the scene; replaces what was loaded before, annotations included.
+  /// Throws InputError if options.color_by or the style asks for what the scene lacks.
+  void load(const Scene& scene, const RenderOptions& options);
+
+  /// Adds figure and bar to what was loaded, in the plane through `base` spanned by right and up.
+  void load_annotations(const Annotations& annotations, const Vec3& base, const CameraAxes& axes);
+
+  /// Makes the shadows of what was loaded from `scene`; before draw() in the style lit. `map_size`: pixels a
+  /// side. Leaves its own framebuffer bound.
+  void cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size);
+
+  /// How far the ground reaches around the tree, metres; 0 in styles without one.
+  double ground_reach() const { return ground_reach_; }
+
+  /// Draws what was loaded, background first.
+  void draw(const Camera& camera, const Viewport& viewport);
+
+ private:
+  /// Indices that are drawn in one go.
+  struct Range {
+    std::size_t first = 0;
+    int count = 0;
+    bool is_closed = false;  // so that the triangles' backs are never seen
+  };
+
+  /// Triangles, or lines, on the GPU.
+  struct Batch {
+    Vec3 origin{0.0};  // that the positions are relative to
+    GlVertexArray vertices;
+    GlBuffer positions;
+    GlBuffer normals;  // of lines: where they end
+    GlBuffer colors;
+    GlBuffer indices;
+    std::vector<Range> ranges;  // of a mesh
+    int count = 0;              // of vertices or lines, where there are no ranges
+  };
+
+  void load_mesh(const Scene& scene);
+  void load_lines(const Scene& scene);
+  void load_sky_light(const Scene& scene);
+  Batch flat_batch(const std::vector<Vec2f>& corners, const CameraAxes& axes) const;
+  void draw_background(const Viewport& viewport) const;
+  void draw_tree(const glm::dmat4& world_to_clip) const;
+  void draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const;
+  void draw_ground(const glm::dmat4& world_to_clip) const;
+  static void draw_triangles(const Batch& batch);
+  void draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) const;
+  void cast(const Batch& batch) const;
+  void set_light(const GlProgram& program) const;
+  bool has_ground(const Camera& camera) const;
+
+  GlProgram background_;
+  GlProgram caster_;
+  GlProgram flat_;
+  GlProgram lit_;
+  GlProgram ground_;
+  GlProgram line_;
+  GlVertexArray no_vertices_;
+
+  RenderOptions options_;
+  Batch tree_;
+  std::vector<Vec3f> figure_corners_;
+  Batch figure_;
+  Batch bar_;
+
+  Vec3 base_{0.0};
+  double ground_reach_ = 0.0;
+  SunView sun_;
+  std::unique_ptr<ShadowMap> shadow_map_;
+  GlTexture sky_visibility_;
+  glm::mat4 world_to_sky_{1.0f};
+};
+
+}  // namespace ramify

@@ -1,0 +1,20 @@
+// Which colours stand for what.
+#pragma once
+
+#include <cstddef>
+
+#include "viewer/color.h"
+
+namespace ramify {
+
+/// Viridis (van der Walt & Smith 2015), perceptually uniform: 0 dark blue, 1 yellow. t is clamped; grey for
+/// NaN.
+Color sequential_color(double t);
+
+/// Nine colours in turn that also colour-blind readers tell apart (Tol 2021, "muted").
+Color categorical_color(std::size_t index);
+
+/// Bark of a stem of this diameter, metres: grey-brown where thick, redder and lighter towards the twigs.
+Color bark_color(double diameter);
+
+}  // namespace ramify

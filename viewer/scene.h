@@ -1,0 +1,57 @@
+// What is to be drawn, and how a picture of it is wanted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/geometry.h"
+#include "viewer/camera.h"
+#include "viewer/color.h"
+
+namespace ramify {
+
+struct Mesh;
+struct Skeleton;
+
+enum class RenderStyle {
+  lit,        // sun, sky, shadow and ground
+  schematic,  // silhouette on white, as the papers print trees
+  skeleton,   // a line an internode
+};
+
+struct RenderOptions {
+  int width = 1024;
+  int height = 1024;
+  ViewDirection view;
+  RenderStyle style = RenderStyle::lit;
+  std::optional<Color> background;  // else a sky if lit, white otherwise
+  std::string color_by;             // an attribute (attributes.h); empty: bark if lit, black if schematic
+  bool with_scale = false;          // a bar with its length and a human figure beside the tree
+};
+
+struct Scene {
+  const Mesh* mesh = nullptr;          // null is drawn as an empty one
+  const Skeleton* skeleton = nullptr;  // null for a mesh read from a file
+};
+
+/// Where the tree stands: the lowest root node or, without a skeleton, the middle of the mesh's underside;
+/// the origin for an empty scene. The ground is level with it.
+Vec3 base_of(const Scene& scene);
+
+/// sRGB bytes as the GPU takes them.
+using ColorBytes = std::array<std::uint8_t, 4>;
+
+ColorBytes color_bytes(const Color& color);
+
+/// The colour of each vertex in the style lit or schematic: by attribute, else bark by the width (leaves
+/// green) or black. Throws InputError if color_by names what the scene's skeleton lacks, or there is no
+/// skeleton.
+std::vector<ColorBytes> vertex_colors(const Scene& scene, const RenderOptions& options);
+
+/// The colour of each skeleton node in the style skeleton; by order if color_by is empty. Throws InputError.
+std::vector<ColorBytes> node_colors(const Scene& scene, const RenderOptions& options);
+
+}  // namespace ramify

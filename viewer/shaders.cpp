@@ -1,0 +1,284 @@
+#include "viewer/shaders.h"
+
+namespace ramify::shaders {
+namespace {
+
+constexpr const char* kDecode = R"(
+vec3 linear_of(vec3 encoded) {
+  return mix(encoded / 12.92, pow((encoded + 0.055) / 1.055, vec3(2.4)), step(0.04045, encoded));
+}
+)";
+
+// Sunlight and skylight add up to 1 on level ground in the open, so that its colour there is its own.
+constexpr const char* kLight = R"(
+uniform vec3 to_sun;
+uniform sampler3D sky_visibility;
+uniform mat4 world_to_sky;
+uniform mat4 world_to_map;
+uniform vec2 map_size;   // metres across and up the picture that the sun takes
+uniform float map_depth; // metres
+
+const vec3 kSunShare = vec3(0.60, 0.575, 0.53);
+const vec3 kSkyShare = vec3(0.40, 0.425, 0.47);
+
+float open_sky(vec3 world) {
+  vec3 at = (world_to_sky * vec4(world, 1.0)).xyz;
+  // Towards the sides of the box the darkening fades out, so that none is seen to end there.
+  vec2 inside = smoothstep(0.0, 0.16, at.xz) * smoothstep(0.0, 0.16, 1.0 - at.xz);
+  return mix(1.0, texture(sky_visibility, at).r, inside.x * inside.y);
+}
+)";
+
+}  // namespace
+
+std::string screen_vertex() {
+  return R"(
+out vec2 place;  // from 0 to 1 over the viewport
+void main() {
+  place = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+  gl_Position = vec4(2.0 * place - 1.0, 0.0, 1.0);
+}
+)";
+}
+
+std::string background_fragment() {
+  return R"(
+in vec2 place;
+uniform vec4 bottom;
+uniform vec4 top;
+uniform vec2 part;  // heights in the whole picture at which the viewport starts and ends
+out vec4 color;
+void main() { color = mix(bottom, top, smoothstep(0.25, 1.0, mix(part.x, part.y, place.y))); }
+)";
+}
+
+std::string finish_fragment() {
+  return R"(
+uniform sampler2D picture;  // twice as wide and high as what is written
+out vec4 color;
+
+vec3 encoded(vec3 light) {
+  light = clamp(light, 0.0, 1.0);
+  return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light));
+}
+
+// Ordered thresholds from 0 to 1, an 8 x 8 Bayer matrix: hides the steps of 8 bits in soft gradients.
+float threshold(ivec2 at) {
+  int value = 0;
+  for (int bit = 0; bit < 3; ++bit) {
+    int x = (at.x >> bit) & 1;
+    int y = (at.y >> bit) & 1;
+    value = value * 4 + 2 * (x ^ y) + y;
+  }
+  return (float(value) + 0.5) / 64.0;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec4 sum = vec4(0.0);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 2; ++x) sum += texelFetch(picture, 2 * at + ivec2(x, y), 0);
+  }
+  sum /= 4.0;
+  vec3 straight = sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0);
+  // Less than half a step either way: a plain colour stays exactly what it was.
+  float dither = 0.8 * (threshold(at) - 0.5) / 255.0;
+  color = vec4(encoded(straight) + dither, sum.a);
+}
+)";
+}
+
+std::string caster_vertex() {
+  return R"(
+layout(location = 0) in vec3 position;
+uniform mat4 world_to_map;
+out float height;
+out float depth;
+void main() {
+  vec3 at = (world_to_map * vec4(position, 1.0)).xyz;
+  height = position.y;
+  depth = at.z;
+  gl_Position = vec4(2.0 * at - 1.0, 1.0);
+}
+)";
+}
+
+std::string caster_fragment() {
+  return R"(
+in float height;
+in float depth;
+uniform float ground;
+out vec2 shade;
+void main() {
+  // Roots in the ground cast no shadow on it.
+  if (height < ground) discard;
+  shade = vec2(1.0, depth);
+}
+)";
+}
+
+std::string flat_vertex() {
+  return std::string(kDecode) + R"(
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec4 color;
+uniform mat4 world_to_clip;
+out vec3 paint;
+void main() {
+  paint = linear_of(color.rgb);
+  gl_Position = world_to_clip * vec4(position, 1.0);
+}
+)";
+}
+
+std::string flat_fragment() {
+  return R"(
+in vec3 paint;
+out vec4 color;
+void main() { color = vec4(paint, 1.0); }
+)";
+}
+
+std::string lit_vertex() {
+  return std::string(kDecode) + R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 color;
+uniform mat4 world_to_clip;
+out vec3 world;
+out vec3 world_normal;
+out vec3 albedo;
+void main() {
+  world = position;
+  world_normal = normal;
+  albedo = linear_of(color.rgb);
+  gl_Position = world_to_clip * vec4(position, 1.0);
+}
+)";
+}
+
+std::string lit_fragment() {
+  return std::string(kLight) + R"(
+in vec3 world;
+in vec3 world_normal;
+in vec3 albedo;
+uniform sampler2DShadow sun_depth;
+uniform float texel;  // metres
+out vec4 color;
+
+// Four comparisons, each of which the texture unit blends from four.
+float sunlit(vec3 normal) {
+  // Off the surface along its normal, so that it does not shade itself; further where the sun grazes it.
+  float slope = sqrt(max(0.0, 1.0 - pow(dot(normal, to_sun), 2.0)));
+  vec3 at = world + normal * texel * (0.8 + 2.4 * slope) + to_sun * texel;
+  vec3 map = (world_to_map * vec4(at, 1.0)).xyz;
+  vec3 step = vec3(0.6 * texel / map_size, 0.0);
+  return 0.25 * (texture(sun_depth, map - step) + texture(sun_depth, map + step) +
+                 texture(sun_depth, map + step * vec3(1.0, -1.0, 0.0)) +
+                 texture(sun_depth, map + step * vec3(-1.0, 1.0, 0.0)));
+}
+
+void main() {
+  vec3 normal = normalize(gl_FrontFacing ? world_normal : -world_normal);
+  float facing = max(dot(normal, to_sun), 0.0);
+  float sun = facing > 0.0 ? facing * sunlit(normal) / to_sun.y : 0.0;
+  float sky = open_sky(world);
+  sky = mix(0.2, 1.0, sky * sky);
+  // The ground throws a little warm light back up.
+  vec3 ambient = mix(vec3(0.44, 0.40, 0.35), kSkyShare * 1.4, 0.5 + 0.5 * normal.y);
+  color = vec4(albedo * (1.45 * kSunShare * sun + ambient * sky), 1.0);
+}
+)";
+}
+
+std::string ground_vertex() {
+  return R"(
+uniform mat4 world_to_clip;
+uniform vec3 middle;
+uniform float reach;
+out vec3 world;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  world = middle + reach * vec3(corner.x, 0.0, corner.y);
+  gl_Position = world_to_clip * vec4(world, 1.0);
+}
+)";
+}
+
+std::string ground_fragment() {
+  return std::string(kLight) + R"(
+in vec3 world;
+uniform sampler2D shade;  // what the sun sees: coverage, and coverage times depth
+uniform vec3 paint;
+uniform vec3 middle;
+uniform float reach;
+uniform float penumbra;  // radius a metre
+out vec4 color;
+
+// Part of the sun that the tree hides. The shadow's edge is as soft as what casts it is high: the mean depth
+// around tells how far that is, and how coarse a copy of the map to read.
+float hidden_sun(vec3 at) {
+  vec3 map = (world_to_map * vec4(at, 1.0)).xyz;
+  if (any(lessThan(map.xy, vec2(0.0))) || any(greaterThan(map.xy, vec2(1.0)))) return 0.0;
+  vec2 metres = map_size / vec2(textureSize(shade, 0));
+  float texels = 1.0 / max(metres.x, metres.y);
+  float widest = max(penumbra * map_depth * texels, 2.0);
+  vec2 around = textureLod(shade, map.xy, log2(widest)).rg;
+  if (around.r < 1e-4) return 0.0;
+  float distance = max(map.z - around.g / around.r, 0.0) * map_depth;
+  float radius = max(penumbra * distance * texels, 1.0);
+
+  float lod = max(log2(radius) - 1.0, 0.0);
+  vec2 step = 0.7 * radius / texels / map_size;
+  float hidden = 0.0;
+  float total = 0.0;
+  for (int y = -2; y <= 2; ++y) {
+    for (int x = -2; x <= 2; ++x) {
+      float weight = exp(-0.35 * float(x * x + y * y));
+      hidden += weight * textureLod(shade, map.xy + vec2(x, y) * step, lod).r;
+      total += weight;
+    }
+  }
+  return hidden / total;
+}
+
+void main() {
+  float away = length(world - middle) / reach;
+  float presence = 1.0 - smoothstep(0.25, 1.0, away);
+  if (presence <= 0.0) discard;
+  float sky = open_sky(world);
+  vec3 light = kSunShare * (1.0 - hidden_sun(world)) + kSkyShare * sky;
+  color = vec4(paint * light, 1.0) * presence;
+}
+)";
+}
+
+std::string line_vertex() {
+  return std::string(kDecode) + R"(
+layout(location = 0) in vec3 start;
+layout(location = 1) in vec3 end;
+layout(location = 2) in vec4 color;
+uniform mat4 world_to_clip;
+uniform vec2 viewport;     // pixels
+uniform float half_width;  // pixels
+out vec3 paint;
+void main() {
+  paint = linear_of(color.rgb);
+  vec4 from = world_to_clip * vec4(start, 1.0);
+  vec4 to = world_to_clip * vec4(end, 1.0);
+  vec2 along = (to.xy / to.w - from.xy / from.w) * viewport;
+  along = length(along) > 1e-4 ? normalize(along) : vec2(1.0, 0.0);
+  vec2 side = vec2(-along.y, along.x) * ((gl_VertexID & 1) == 0 ? 1.0 : -1.0);
+  bool is_start = gl_VertexID < 2;
+  vec4 at = is_start ? from : to;
+  // Longer by half its width at both ends, which closes the bends.
+  vec2 shift = half_width * (side + (is_start ? -along : along));
+  gl_Position = at + vec4(2.0 * shift / viewport * at.w, 0.0, 0.0);
+}
+)";
+}
+
+std::string line_fragment() {
+  return flat_fragment();
+}
+
+}  // namespace ramify::shaders
