@@ -13,13 +13,14 @@ void parallel_for(std::size_t count, std::size_t grain,
 }
 
 struct ThreadLimit::Implementation {
+  // Made in place: a copy of a global_control takes the limit with it when it goes.
+  explicit Implementation(std::size_t threads)
+      : control(tbb::global_control::max_allowed_parallelism, threads) {}
   tbb::global_control control;
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads <= 0) return;
-  implementation_ = std::make_unique<Implementation>(Implementation{
-      tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
+  if (threads > 0) implementation_ = std::make_unique<Implementation>(static_cast<std::size_t>(threads));
 }
 
 ThreadLimit::~ThreadLimit() = default;

@@ -8,6 +8,13 @@
 namespace ramify {
 namespace {
 
+// Rings nearer than this, in diameters, would cut into each other where thick wood bends in short internodes;
+// nodes between stay well inside the wood.
+constexpr double kRingSpacing = 0.75;
+
+// A bend's ring is widened to keep the tube's thickness, but no more than at a right angle.
+constexpr double kMiterMax = std::numbers::sqrt2;
+
 /// The nodes of one tube, base to tip, as a range of `Tubes::nodes`, and where its part of the mesh begins.
 struct Tube {
   std::size_t first = 0;
@@ -37,7 +44,8 @@ std::size_t triangle_count(const Tube& tube) {
   return (tube.count - 1) * tube.sides * 2 + tube.sides + (tube.starts_at_root ? tube.sides : 0);
 }
 
-/// Chains the internodes of each axis. A tube begins at the node that its first internode grows from.
+/// Chains the internodes of each axis, leaving out nodes that crowd. A tube begins at the node that its first
+/// internode grows from.
 Tubes trace_tubes(const Skeleton& skeleton) {
   const std::size_t count = skeleton.node_count();
   std::vector<std::uint32_t> continuation(count, kNoParent);
@@ -59,8 +67,12 @@ Tubes trace_tubes(const Skeleton& skeleton) {
     tube.first = result.nodes.size();
     tube.starts_at_root = starts_at_root;
     result.nodes.push_back(base);
-    for (std::uint32_t node = first; node != kNoParent; node = continuation[node])
-      result.nodes.push_back(node);
+    for (std::uint32_t node = first; node != kNoParent; node = continuation[node]) {
+      const double apart = glm::length(skeleton.position[node] - skeleton.position[result.nodes.back()]);
+      const bool is_crowded = apart < kRingSpacing * skeleton.diameter[node];
+      const bool is_tip = continuation[node] == kNoParent;
+      if (is_tip || !is_crowded) result.nodes.push_back(node);
+    }
     tube.count = result.nodes.size() - tube.first;
     result.tubes.push_back(tube);
   };
@@ -142,6 +154,19 @@ class TubeBuilder {
     mesh_.internodes[vertex] = nodes_[std::max<std::size_t>(ring, 1)];
   }
 
+  /// What to add to a ring's offset `outwards` so that a tube keeps its thickness round a bend: the ring is
+  /// stretched, in the plane of the bend, by 1 / cos of half the turn.
+  Vec3 mitered(std::size_t ring, const Vec3& outwards) const {
+    if (ring == 0 || ring + 1 == nodes_.size()) return outwards;
+    const Vec3 bend = direction(ring) - direction(ring + 1);
+    const double half_sine = 0.5 * glm::length(bend);
+    if (half_sine < 1e-6) return outwards;
+    const double cosine = std::sqrt(std::max(0.0, 1.0 - half_sine * half_sine));
+    const double stretch = std::min(1.0 / std::max(cosine, 1e-6), kMiterMax) - 1.0;
+    const Vec3 axis = bend / (2.0 * half_sine);
+    return outwards + axis * (stretch * glm::dot(outwards, axis));
+  }
+
   void add_ring(std::size_t ring, const Vec3& along, const Vec3& side, float v) {
     const Vec3 across = glm::cross(along, side);
     const double r = radius(ring);
@@ -150,7 +175,7 @@ class TubeBuilder {
     for (std::uint32_t i = 0; i <= tube_.sides; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i % tube_.sides) / tube_.sides;
       const Vec3 outwards = side * std::cos(angle) + across * std::sin(angle);
-      set_vertex(first + i, ring, position(ring) + outwards * r, outwards + along * slope,
+      set_vertex(first + i, ring, position(ring) + mitered(ring, outwards) * r, outwards + along * slope,
                  {static_cast<float>(i) / static_cast<float>(tube_.sides), v});
     }
   }

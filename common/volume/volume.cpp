@@ -19,6 +19,9 @@ constexpr double kSurfaceSlack = 1e-9;
 // cover each other's faces, a part does not cover its own. Metres.
 constexpr double kFaceStep = 1e-6;
 
+// Points counted a task: some tens of microseconds.
+constexpr std::size_t kPointsPerTask = 4096;
+
 // Rays to each part's outer faces where its nearest face is covered.
 constexpr int kRayCount = 256;
 
@@ -63,31 +66,26 @@ Vec3 nearest_on_ellipsoid(const Vec3& inside, const Vec3& radii) {
   return foot;
 }
 
-/// Volume of the cells, of about `cells` that fill `box`, whose centres are inside.
+/// The volume of the part of `box` for which is_inside is true, by the share of evenly spread points that
+/// are. M. Roberts' R3 sequence, 2018: a regular grid of as many points is off by up to 2 % where it lies
+/// along a face.
 template <class Inside>
-double counted_volume(const Box& box, int cells, const Inside& is_inside) {
+double counted_volume(const Box& box, int points, const Inside& is_inside) {
   if (box.is_empty()) return 0.0;
+  constexpr double kPlastic = 1.2207440846057596;  // the root of x^4 = x + 1
+  const Vec3 stride = 1.0 / Vec3(kPlastic, kPlastic * kPlastic, kPlastic * kPlastic * kPlastic);
   const Vec3 size = box.size();
-  const double edge = std::cbrt(size.x * size.y * size.z / cells);
-  if (!(edge > 0.0)) return 0.0;
-  // A sheet or a needle would need many more cells, were they cubes.
-  const double most = 10.0 * std::cbrt(cells);
-  const Coord count(glm::clamp(glm::round(size / edge), 1.0, most));
-  const Vec3 cell = size / Vec3(count);
 
-  std::vector<std::int64_t> layers(static_cast<std::size_t>(count.z), 0);
-  parallel_for(layers.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t z = begin; z < end; ++z) {
-      for (int y = 0; y < count.y; ++y) {
-        for (int x = 0; x < count.x; ++x) {
-          const Vec3 center = box.low + (Vec3(x, y, static_cast<double>(z)) + 0.5) * cell;
-          if (is_inside(center)) ++layers[z];
-        }
-      }
+  const auto count = static_cast<std::size_t>(points);
+  std::vector<std::size_t> inside((count + kPointsPerTask - 1) / kPointsPerTask, 0);
+  parallel_for(inside.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin * kPointsPerTask; i < std::min(end * kPointsPerTask, count); ++i) {
+      const Vec3 place = glm::fract(static_cast<double>(i + 1) * stride);
+      if (is_inside(box.low + place * size)) ++inside[i / kPointsPerTask];
     }
   });
-  const std::int64_t total = std::accumulate(layers.begin(), layers.end(), std::int64_t{0});
-  return static_cast<double>(total) * cell.x * cell.y * cell.z;
+  const std::size_t total = std::accumulate(inside.begin(), inside.end(), std::size_t{0});
+  return size.x * size.y * size.z * static_cast<double>(total) / static_cast<double>(points);
 }
 
 void check_shape(const Volume& volume, const std::string& key) {
@@ -352,19 +350,19 @@ double outer_depth(const Volume& volume, const Vec3& point) {
   return Solid(volume).outer_depth(point);
 }
 
-double volume_of(const Volume& volume, int cells) {
+double volume_of(const Volume& volume, int points) {
   const Solid solid(volume);
-  return counted_volume(solid.bounds(), cells, [&](const Vec3& point) { return solid.contains(point); });
+  return counted_volume(solid.bounds(), points, [&](const Vec3& point) { return solid.contains(point); });
 }
 
-double shared_volume_of(const Volume& a, const Volume& b, int cells) {
+double shared_volume_of(const Volume& a, const Volume& b, int points) {
   const Solid solid_a(a);
   const Solid solid_b(b);
   const Box box_a = solid_a.bounds();
   const Box box_b = solid_b.bounds();
   const Box shared{glm::max(box_a.low, box_b.low), glm::min(box_a.high, box_b.high)};
   return counted_volume(
-      shared, cells, [&](const Vec3& point) { return solid_a.contains(point) && solid_b.contains(point); });
+      shared, points, [&](const Vec3& point) { return solid_a.contains(point) && solid_b.contains(point); });
 }
 
 void check_volume(const Volume& volume, const std::string& key) {

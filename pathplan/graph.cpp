@@ -1,0 +1,52 @@
+#include "pathplan/graph.h"
+
+#include <numeric>
+
+namespace ramify::pathplan {
+
+void link_nodes(Graph& graph) {
+  graph.first.assign(graph.nodes.size() + 1, 0);
+  for (const auto& [a, b] : graph.edges) {
+    ++graph.first[a + 1];
+    ++graph.first[b + 1];
+  }
+  std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());
+
+  graph.links.resize(2 * graph.edges.size());
+  std::vector<std::uint32_t> next(graph.first.begin(), graph.first.end() - 1);
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const auto [a, b] = graph.edges[i];
+    graph.links[next[a]++] = {b, graph.weights[i]};
+    graph.links[next[b]++] = {a, graph.weights[i]};
+  }
+}
+
+double mean_edge_length(const Graph& graph) {
+  double sum = 0.0;
+  for (const auto& [a, b] : graph.edges) sum += glm::distance(graph.nodes[a], graph.nodes[b]);
+  return graph.edges.empty() ? 0.0 : sum / static_cast<double>(graph.edges.size());
+}
+
+std::size_t component_count(const Graph& graph) {
+  std::vector<bool> is_seen(graph.nodes.size(), false);
+  std::vector<std::uint32_t> open;
+  std::size_t components = 0;
+  for (std::uint32_t start = 0; start < graph.nodes.size(); ++start) {
+    if (is_seen[start]) continue;
+    ++components;
+    is_seen[start] = true;
+    open.push_back(start);
+    while (!open.empty()) {
+      const std::uint32_t node = open.back();
+      open.pop_back();
+      for (const Link& link : graph.links_of(node)) {
+        if (is_seen[link.node]) continue;
+        is_seen[link.node] = true;
+        open.push_back(link.node);
+      }
+    }
+  }
+  return components;
+}
+
+}  // namespace ramify::pathplan

@@ -1,0 +1,60 @@
+#include "pathplan/point_grid.h"
+
+namespace ramify::pathplan {
+namespace {
+
+// Few points in a large box, as in a thin tilted trunk, must not need memory for the box.
+constexpr double kMaxCellsPerPoint = 8.0;
+
+}  // namespace
+
+PointGrid::PointGrid(std::span<const Vec3> points, double edge) {
+  Box box;
+  for (const Vec3& point : points) box.include(point);
+  if (points.empty()) box.include(Vec3(0.0));
+  low_ = box.low;
+
+  const double cells_max = kMaxCellsPerPoint * static_cast<double>(points.size() + 1);
+  Vec3 count = glm::floor(box.size() / edge) + 1.0;
+  while (count.x * count.y * count.z > cells_max) {
+    edge *= 1.25;
+    count = glm::floor(box.size() / edge) + 1.0;
+  }
+  edge_ = edge;
+  inverse_edge_ = 1.0 / edge;
+  count_ = Coord(count);
+
+  // A counting sort keeps the points of a cell in their order.
+  std::vector<std::uint32_t> cell_of_point(points.size());
+  first_.assign(index_of(count_ - 1) + 2, 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cell_of_point[i] = static_cast<std::uint32_t>(index_of(cell_of(points[i])));
+    ++first_[cell_of_point[i] + 1];
+  }
+  for (std::size_t cell = 1; cell < first_.size(); ++cell) first_[cell] += first_[cell - 1];
+
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  ids_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ids_[next[cell_of_point[i]]++] = static_cast<std::uint32_t>(i);
+  }
+}
+
+PointGrid::Cells PointGrid::around(std::size_t cell) const {
+  const auto row = static_cast<std::size_t>(count_.x);
+  const auto layer = row * static_cast<std::size_t>(count_.y);
+  const Coord middle(cell % row, cell % layer / row, cell / layer);
+  return {glm::max(middle - 1, Coord(0)), glm::min(middle + 1, count_ - 1)};
+}
+
+Box PointGrid::covered_by(const Cells& cells) const {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  Box box{Vec3(-kEndless), Vec3(kEndless)};
+  for (int i = 0; i < 3; ++i) {
+    if (cells.low[i] > 0) box.low[i] = low_[i] + edge_ * cells.low[i];
+    if (cells.high[i] < count_[i] - 1) box.high[i] = low_[i] + edge_ * (cells.high[i] + 1);
+  }
+  return box;
+}
+
+}  // namespace ramify::pathplan

@@ -1,0 +1,82 @@
+// Points in the cells of a uniform grid, so that those near a place are found without looking at the others.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/geometry.h"
+
+namespace ramify::pathplan {
+
+// A good cell, in spacings of Poisson-disc points: about three points each, so that the cells around a point
+// hold most of its neighbours.
+inline constexpr double kCellSpacings = 2.0;
+
+/// Cells follow each other along x first, then y, then z; the points of each stand together, in the order
+/// that they were given in. Any number of threads may ask.
+class PointGrid {
+ public:
+  /// A box of cells, both corners included.
+  struct Cells {
+    Coord low;
+    Coord high;
+  };
+
+  /// Cells of about `edge` metres, larger where there would be many more cells than points. O(points).
+  PointGrid(std::span<const Vec3> points, double edge);
+
+  std::size_t cell_count() const { return first_.size() - 1; }
+  /// The numbers of the points in a cell.
+  std::span<const std::uint32_t> ids_in(std::size_t cell) const {
+    return run(first_[cell], first_[cell + 1]);
+  }
+
+  /// The cells at most one cell away, in each direction and across, from a cell.
+  Cells around(std::size_t cell) const;
+  /// All cells that a box touches; outside the grid, the nearest ones.
+  Cells touching(const Box& box) const { return {cell_of(box.low), cell_of(box.high)}; }
+
+  /// What the cells cover, without end where the grid ends: all points outside it are in other cells.
+  Box covered_by(const Cells& cells) const;
+
+  /// Calls visit(run) for runs of points' numbers that together are those in the cells, in their order.
+  template <class Visit>
+  void for_each_run(const Cells& cells, const Visit& visit) const {
+    for (int z = cells.low.z; z <= cells.high.z; ++z) {
+      for (int y = cells.low.y; y <= cells.high.y; ++y) {
+        // Neighbours along x stand together.
+        visit(run(first_[index_of({cells.low.x, y, z})], first_[index_of({cells.high.x, y, z}) + 1]));
+      }
+    }
+  }
+
+  /// All points' numbers in the order of the cells.
+  std::span<const std::uint32_t> order() const { return ids_; }
+
+ private:
+  std::span<const std::uint32_t> run(std::uint32_t begin, std::uint32_t end) const {
+    return std::span(ids_).subspan(begin, end - begin);
+  }
+
+  /// The nearest cell for a point outside the grid.
+  Coord cell_of(const Vec3& point) const {
+    const Vec3 cell = (point - low_) * inverse_edge_;
+    return Coord(glm::clamp(cell, Vec3(0.0), Vec3(count_ - 1)));
+  }
+  std::size_t index_of(const Coord& cell) const {
+    return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(count_.y) +
+            static_cast<std::size_t>(cell.y)) *
+               static_cast<std::size_t>(count_.x) +
+           static_cast<std::size_t>(cell.x);
+  }
+
+  Vec3 low_{0.0};
+  double edge_ = 1.0;
+  double inverse_edge_ = 1.0;
+  Coord count_{1};
+  std::vector<std::uint32_t> first_;  // of each cell, in ids_; one more at the end
+  std::vector<std::uint32_t> ids_;
+};
+
+}  // namespace ramify::pathplan

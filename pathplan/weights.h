@@ -1,0 +1,22 @@
+// Random weights of a graph's edges: the more they vary, the more crooked its least-cost paths.
+#pragma once
+
+#include <cstdint>
+
+#include "pathplan/graph.h"
+
+namespace ramify::pathplan {
+
+/// weight = length^exponent * U(low, high), length in metres.
+struct RandomWeights {
+  double exponent = 1.0;
+  double low = 0.1;
+  double high = 1.0;
+  std::uint64_t seed = 1;
+};
+
+/// Sets graph.weights, one an edge. A weight depends on the seed and the numbers of the edge's ends alone.
+/// O(edges) on all threads.
+void assign_random_weights(Graph& graph, const RandomWeights& weights);
+
+}  // namespace ramify::pathplan
