@@ -1,0 +1,28 @@
+// The program's commands, one file each: each adds itself to the command line and runs when it is called.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <stop_token>
+
+#include "common/config/engine.h"
+
+namespace ramify::cli {
+
+/// Ctrl-C: main() exits with 130.
+class Interrupted {};
+
+/// What all commands share.
+struct Session {
+  EngineRegistry registry;
+  std::stop_token stop;  // requested by Ctrl-C
+};
+
+void add_generate(CLI::App& program, const Session& session);
+void add_render(CLI::App& program, const Session& session);
+void add_presets(CLI::App& program);
+void add_params(CLI::App& program, const Session& session);
+void add_check(CLI::App& program, const Session& session);
+
+}  // namespace ramify::cli

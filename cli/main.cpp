@@ -1,0 +1,122 @@
+// ramify: trees by self-organization and by path planning.
+
+#include <fmt/format.h>
+
+#include <CLI/Error.hpp>
+#include <cstdio>
+#include <new>
+
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "common/base/errors.h"
+#include "common/config/field.h"
+#include "common/config/provenance.h"
+#include "growth/engine.h"
+#include "pathplan/engine.h"
+
+namespace ramify::cli {
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
+
+constexpr const char* kFirstSteps = R"(Trees by self-organization and by path planning. Four commands to try:
+
+  ramify presets                                 what can be made
+  ramify generate s4-fig6 -o tree.glb            a tree for Blender or a game engine
+  ramify render s4-improved xm12-fig5 -o a.png   both methods side by side
+  ramify params growth                           every parameter and what it means
+
+`ramify --help` lists all commands, `ramify COMMAND --help` their flags.
+)";
+
+int fail(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "ramify: {}\n", message);
+  return code;
+}
+
+/// What is near to a word nobody expected: a command's name or a flag.
+std::string suggestion(const std::string& word, const CLI::App& program) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(command->get_name());
+  }
+  for (const CLI::App* command : program.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+  }
+  const std::string nearest = nearest_name(word, known);
+  return nearest.empty() ? "`ramify --help` lists what is" : fmt::format("did you mean '{}'?", nearest);
+}
+
+/// The words of the command line that nothing took.
+std::vector<std::string> unexpected_words(const CLI::App& program) {
+  std::vector<std::string> words = program.remaining(true);
+  return words;
+}
+
+int parse_and_run(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForHelp& call) {
+    return program.exit(call);
+  } catch (const CLI::CallForVersion& call) {
+    return program.exit(call);
+  } catch (const CLI::ExtrasError&) {
+    const std::string word = unexpected_words(program).front();
+    return fail(kBadInput, fmt::format("'{}' is not known ({})", word, suggestion(word, program)));
+  } catch (const CLI::ParseError& error) {
+    return fail(kBadInput, error.what());
+  }
+  return kDone;
+}
+
+int run(int argc, char** argv) {
+  const InterruptWatch watch;
+  Session session;
+  session.stop = watch.token();
+  growth::register_engine(session.registry);
+  pathplan::register_engine(session.registry);
+
+  CLI::App program("Trees by self-organization and by path planning", "ramify");
+  program.set_version_flag("--version", "ramify " + version());
+  program.require_subcommand(0, 1);
+  program.set_help_all_flag("--help-all", "Help of all commands");
+  add_generate(program, session);
+  add_render(program, session);
+  add_presets(program);
+  add_params(program, session);
+  add_check(program, session);
+  try {
+    if (argc == 1) {
+      fmt::print("{}", kFirstSteps);
+      return kDone;
+    }
+    return parse_and_run(program, argc, argv);
+  } catch (const Interrupted&) {
+    return fail(kInterrupted, "interrupted; nothing written");
+  } catch (const ConfigError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const InputError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const RunError& error) {
+    return fail(kFailed, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
+}
+
+}  // namespace
+}  // namespace ramify::cli
+
+int main(int argc, char** argv) {
+  const int code = ramify::cli::run(argc, argv);
+  // A full disk behind a redirected stdout must not pass for success.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    fmt::print(stderr, "ramify: cannot write to standard output\n");
+    return code == 0 ? 1 : code;
+  }
+  return code;
+}

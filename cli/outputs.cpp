@@ -1,0 +1,130 @@
+#include "cli/outputs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/base/errors.h"
+#include "common/format/layer_files.h"
+#include "common/format/skeleton_table.h"
+#include "common/mesh/gltf.h"
+#include "common/mesh/obj.h"
+#include "common/mesh/ply.h"
+#include "common/volume/voxel_file.h"
+#include "viewer/image.h"
+#include "viewer/renderer.h"
+
+namespace ramify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Ending {
+  std::string_view text;
+  OutputForm form;
+};
+
+constexpr std::array kEndings = {
+    Ending{".glb", OutputForm::glb},
+    Ending{".gltf", OutputForm::gltf},
+    Ending{".obj", OutputForm::obj},
+    Ending{".ply", OutputForm::ply},
+    Ending{".csv", OutputForm::skeleton_table},
+    Ending{".png", OutputForm::picture},
+    Ending{".vdb", OutputForm::shadow_grid},
+};
+
+fs::path node_table_path(fs::path edges) {
+  return edges.replace_extension(".nodes.csv");
+}
+
+fs::path material_path(fs::path obj) {
+  return obj.replace_extension(".mtl");
+}
+
+/// The data of a layer. Throws InputError where the engine makes no layer of that name.
+template <class Data>
+const Data& layer_data(const Results& results, const std::string& name) {
+  for (const Layer& layer : results.run.layers) {
+    if (layer.name == name) return std::get<Data>(layer.data);
+  }
+  throw InputError(fmt::format("the engine '{}' has no {}", results.job.engine->name, name));
+}
+
+Image picture(const Results& results) {
+  Renderer renderer;
+  return renderer.render({.mesh = &results.mesh, .skeleton = &results.run.skeleton}, {});
+}
+
+}  // namespace
+
+bool Output::needs_mesh() const {
+  switch (form) {
+    case OutputForm::glb:
+    case OutputForm::gltf:
+    case OutputForm::obj:
+    case OutputForm::ply:
+    case OutputForm::picture:
+      return true;
+    case OutputForm::skeleton_table:
+    case OutputForm::shadow_grid:
+    case OutputForm::graph:
+      return false;
+  }
+  return false;
+}
+
+std::vector<fs::path> Output::files() const {
+  if (form == OutputForm::obj) return {path, material_path(path)};
+  if (form == OutputForm::graph) return {path, node_table_path(path)};
+  return {path};
+}
+
+Output output_of(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  for (const Ending& known : kEndings) {
+    if (ending == known.text) return {known.form, path};
+  }
+  std::vector<std::string_view> endings;
+  for (const Ending& known : kEndings) endings.push_back(known.text);
+  throw InputError(fmt::format("{}: unknown ending '{}' ({})", path, ending, fmt::join(endings, " ")));
+}
+
+void write_output(const Output& output, const Results& results, OutputFiles& files) {
+  const Provenance provenance = provenance_of(results.job);
+  const fs::path& path = output.path;
+  switch (output.form) {
+    case OutputForm::glb:
+      write_gltf(results.mesh, provenance, GltfForm::binary, files.add(path));
+      break;
+    case OutputForm::gltf:
+      write_gltf(results.mesh, provenance, GltfForm::text, files.add(path));
+      break;
+    case OutputForm::obj:
+      write_obj(results.mesh, provenance, material_path(path).filename().string(), files.add(path));
+      write_mtl(results.mesh, files.add(material_path(path)));
+      break;
+    case OutputForm::ply:
+      write_ply(results.mesh, provenance, files.add(path));
+      break;
+    case OutputForm::skeleton_table:
+      write_skeleton_table(results.run.skeleton, files.add(path));
+      break;
+    case OutputForm::picture:
+      write_png(picture(results), files.add(path));
+      break;
+    case OutputForm::shadow_grid:
+      write_vdb(layer_data<VoxelLayer>(results, "shadow"), "shadow", files.add(path));
+      break;
+    case OutputForm::graph: {
+      const auto& graph = layer_data<LineLayer>(results, "graph");
+      write_edge_table(graph, files.add(path));
+      write_node_table(graph, files.add(node_table_path(path)));
+      break;
+    }
+  }
+}
+
+}  // namespace ramify::cli

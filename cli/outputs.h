@@ -1,0 +1,38 @@
+// The files that a run writes, each by its ending.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/base/files.h"
+#include "common/config/job.h"
+#include "common/mesh/mesh.h"
+
+namespace ramify::cli {
+
+enum class OutputForm { glb, gltf, obj, ply, skeleton_table, picture, shadow_grid, graph };
+
+struct Output {
+  OutputForm form = OutputForm::glb;
+  std::filesystem::path path;
+
+  bool needs_mesh() const;
+  /// The files it consists of: an .obj has its .mtl, a graph its .nodes.csv.
+  std::vector<std::filesystem::path> files() const;
+};
+
+/// Which form a file's ending asks for. Throws InputError naming the endings known.
+Output output_of(const std::string& path);
+
+/// What outputs are made of.
+struct Results {
+  const Job& job;
+  const RunResult& run;
+  const Mesh& mesh;  // empty where no output needs it
+};
+
+/// Adds the output's files to `files`. Throws InputError where the engine has no such thing, RunError.
+void write_output(const Output& output, const Results& results, OutputFiles& files);
+
+}  // namespace ramify::cli
