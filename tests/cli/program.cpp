@@ -1,0 +1,34 @@
+#include "tests/cli/program.h"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "common/base/files.h"
+#include "tests/folder.h"
+
+namespace ramify::test {
+
+std::string program_path() {
+  return RAMIFY_PROGRAM;
+}
+
+Outcome run_shell(const std::string& command, const std::string& folder) {
+  const Folder scratch;
+  std::ofstream(scratch.file("script")) << "cd '" << folder << "' || exit 99\n" << command << '\n';
+  const std::string line = "bash '" + scratch.file("script") + "' >'" + scratch.file("out") + "' 2>'" +
+                           scratch.file("err") + "' </dev/null";
+  const int status = std::system(line.c_str());
+  Outcome outcome;
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.out = read_file(scratch.file("out"));
+  outcome.err = read_file(scratch.file("err"));
+  return outcome;
+}
+
+Outcome run_program(const std::string& arguments, const std::string& folder, const std::string& prefix) {
+  return run_shell(prefix + "'" + program_path() + "' " + arguments, folder);
+}
+
+}  // namespace ramify::test

@@ -1,0 +1,24 @@
+// The program run as a person or a script runs it.
+#pragma once
+
+#include <string>
+
+namespace ramify::test {
+
+struct Outcome {
+  int code = -1;    // exit code; 128 + signal if it was killed
+  std::string out;  // stdout
+  std::string err;  // stderr
+};
+
+/// Runs `ramify ARGUMENTS` in `folder`, through the shell. `prefix` stands before the program's name.
+Outcome run_program(const std::string& arguments, const std::string& folder = ".",
+                    const std::string& prefix = "");
+
+/// The program's path, for commands that do more than run it.
+std::string program_path();
+
+/// Any command, by bash.
+Outcome run_shell(const std::string& command, const std::string& folder = ".");
+
+}  // namespace ramify::test

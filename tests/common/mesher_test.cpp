@@ -1,0 +1,137 @@
+#include "common/mesh/mesher.h"
+
+#include <algorithm>
+#include <map>
+
+#include "common/base/parallel.h"
+#include "common/skeleton/passes.h"
+#include "tests/catch.h"
+#include "tests/common/trees.h"
+
+using namespace ramify;
+using namespace ramify::test;
+
+namespace {
+
+Vec3f corner(const Mesh& mesh, std::size_t triangle, std::size_t i) {
+  return mesh.positions[mesh.triangles[triangle][i]];
+}
+
+Vec3f area_vector(const Mesh& mesh, std::size_t t) {
+  return 0.5f * glm::cross(corner(mesh, t, 1) - corner(mesh, t, 0), corner(mesh, t, 2) - corner(mesh, t, 0));
+}
+
+/// Enclosed by the triangles, positive if they face outwards.
+double volume(const Mesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    sum += glm::dot(Vec3(corner(mesh, t, 0)), Vec3(area_vector(mesh, t))) / 3.0;
+  }
+  return sum;
+}
+
+void check_sound(const Mesh& mesh) {
+  REQUIRE(mesh.normals.size() == mesh.vertex_count());
+  REQUIRE(mesh.uvs.size() == mesh.vertex_count());
+  REQUIRE(mesh.internodes.size() == mesh.vertex_count());
+  std::size_t covered = 0;
+  for (const MaterialRange& range : mesh.ranges) {
+    CHECK(range.first_triangle == covered);
+    covered += range.triangle_count;
+  }
+  CHECK(covered == mesh.triangles.size());
+
+  std::size_t faults = 0;
+  for (const Vec3f& normal : mesh.normals) faults += std::abs(glm::length(normal) - 1.0f) > 1e-5f;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t vertex : mesh.triangles[t]) REQUIRE(vertex < mesh.vertex_count());
+    faults += !(glm::length(area_vector(mesh, t)) > 0.0f);
+  }
+  CHECK(faults == 0);
+}
+
+}  // namespace
+
+TEST_CASE("mesher: a pole becomes a closed tube whose volume is the truncated cone's") {
+  const Mesh mesh = build_mesh(pole(10), {.sides_min = 64, .sides_max = 64});
+  check_sound(mesh);
+  // pi/3 h (R^2 + R r + r^2), and the tip's cone, as long as it is wide.
+  const double expected = std::numbers::pi / 3 * (10 * (0.01 + 0.005 + 0.0025) + 0.1 * 0.0025);
+  CHECK(std::abs(volume(mesh) - expected) < 0.003 * expected);
+}
+
+TEST_CASE("mesher: every edge of a tube is shared by two triangles, by place") {
+  const Mesh mesh = build_mesh(pole(5), {});
+  using Point = std::array<float, 3>;
+  std::map<std::pair<Point, Point>, int> edges;
+  const auto point = [](const Vec3f& p) { return Point{p.x, p.y, p.z}; };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point a = point(corner(mesh, t, i));
+      const Point b = point(corner(mesh, t, (i + 1) % 3));
+      edges[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  }
+  // Each edge once in either direction: closed, and all triangles face the same way.
+  for (const auto& [edge, balance] : edges) CHECK(balance == 0);
+}
+
+TEST_CASE("mesher: the meshes of all trees are sound and face outwards") {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Mesh mesh = build_mesh(random_tree(seed, 200), {});
+    check_sound(mesh);
+    CHECK(volume(mesh) > 0);
+  }
+}
+
+TEST_CASE("mesher: triangles face the way their corners' normals point") {
+  const Mesh mesh = build_mesh(binary_tree(4), {});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Vec3f sum(0.0f);
+    for (const std::uint32_t vertex : mesh.triangles[t]) sum += mesh.normals[vertex];
+    CHECK(glm::dot(sum, area_vector(mesh, t)) > 0);
+  }
+}
+
+TEST_CASE("mesher: a lateral's tube begins on its parent's centre line, so no fork has a gap") {
+  const Skeleton tree = binary_tree(4);
+  const Mesh mesh = build_mesh(tree, {});
+  for (std::size_t node = 2; node < tree.node_count(); ++node) {
+    if (tree.axis[node] == tree.axis[tree.parent[node]]) continue;
+    const Vec3f base(tree.position[tree.parent[node]]);
+    float nearest = 1e9f;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+      if (mesh.internodes[v] == node) nearest = std::min(nearest, glm::length(mesh.positions[v] - base));
+    }
+    CHECK(nearest <= 0.5f * static_cast<float>(tree.diameter[node]) + 1e-5f);
+  }
+}
+
+TEST_CASE("mesher: thick axes get more sides than twigs, within the limits") {
+  const Mesh coarse = build_mesh(binary_tree(6), {.sides_min = 3, .sides_max = 3});
+  const Mesh mixed = build_mesh(binary_tree(6), {.sides_min = 3, .sides_max = 16});
+  const Mesh fine = build_mesh(binary_tree(6), {.sides_min = 16, .sides_max = 16});
+  CHECK(coarse.triangles.size() < mixed.triangles.size());
+  CHECK(mixed.triangles.size() < fine.triangles.size());
+}
+
+TEST_CASE("mesher: a tree without internodes makes an empty mesh") {
+  Skeleton seed = pole(1);
+  seed = subset(seed, {true, false});
+  const Mesh mesh = build_mesh(seed, {});
+  CHECK(mesh.triangles.empty());
+  CHECK(mesh.ranges.empty());
+}
+
+TEST_CASE("mesher: the number of threads does not change the mesh") {
+  const Skeleton tree = random_tree(1, 5000);
+  Mesh one;
+  {
+    const ThreadLimit limit(1);
+    one = build_mesh(tree, {});
+  }
+  const ThreadLimit limit(2);
+  const Mesh two = build_mesh(tree, {});
+  CHECK(one.positions == two.positions);
+  CHECK(one.triangles == two.triangles);
+}

@@ -1,0 +1,176 @@
+#include "growth/allocation.h"
+
+#include <numeric>
+
+#include "growth/simulation.h"
+#include "tests/catch.h"
+#include "tests/growth/runs.h"
+
+using namespace ramify;
+using namespace ramify::growth;
+using namespace ramify::test;
+
+namespace {
+
+void add_node(Plant& plant, std::uint32_t parent, std::uint32_t axis) {
+  plant.position.push_back(Vec3(0, double(plant.node_count()), 0));
+  plant.parent.push_back(parent);
+  plant.axis.push_back(axis);
+  plant.birth_step.push_back(1);
+  plant.shed_step.push_back(kAlive);
+}
+
+/// A trunk of one internode with a terminal and an axillary bud, and a lateral axis of one internode with a
+/// terminal bud on the trunk's first node.
+struct Fork {
+  Plant plant;
+  std::vector<double> light = {0.5, 0.25, 1.0};  // terminal, axillary, lateral's terminal
+  LightSums sums;
+
+  Fork() {
+    plant = seedling(Parameters{});
+    add_node(plant, 0, 0);
+    add_node(plant, 1, 1);
+    plant.axes.push_back({.base = 1, .first = 2, .node_count = 1, .birth_step = 1, .order = 1});
+    plant.buds = {{.node = 1, .axis = 0, .is_terminal = true},
+                  {.node = 1, .axis = 0, .is_terminal = false},
+                  {.node = 2, .axis = 1, .is_terminal = true}};
+    sum_light(plant, light, sums);
+  }
+};
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+bool is_near(double a, double b) {
+  return std::abs(a - b) <= 1e-12 * std::max(1.0, std::abs(b));
+}
+
+}  // namespace
+
+TEST_CASE("light sums: each node has what its buds and all beyond them get") {
+  const Fork fork;
+  CHECK(fork.sums.total(0) == 1.75);
+  CHECK(fork.sums.main[1] == 0.5);
+  CHECK(fork.sums.lateral[1] == 1.25);
+  CHECK(fork.sums.buds[0] == 3);
+  CHECK(fork.sums.buds[2] == 1);
+  CHECK(fork.sums.internodes[1] == 2);
+}
+
+TEST_CASE("Borchert-Honda: a fork shares by lambda times light") {
+  Fork fork;
+  Parameters parameters;
+  parameters.alpha = 2.0;
+  parameters.alpha0 = 0.5;
+  for (const double lambda : {0.0, 0.3, 0.5, 0.7, 1.0}) {
+    parameters.lambda = lambda;
+    std::vector<double> v;
+    allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, v);
+    const double root = 0.5 + 2.0 * 1.75;
+    const double demand = lambda * 0.5 + (1 - lambda) * 1.25;
+    CHECK(is_near(v[0], root * lambda * 0.5 / demand));
+    CHECK(is_near(v[1], root * (1 - lambda) * 0.25 / demand));
+    CHECK(is_near(v[2], root * (1 - lambda) * 1.0 / demand));
+    CHECK(is_near(sum(v), root));
+  }
+}
+
+TEST_CASE("priority: the weights of Palubicki et al. for ten items") {
+  const std::vector<double> expected = {.8012, .6024, .4036, .2048, .006, .006, .006, .006, .006, .006};
+  for (std::size_t i = 1; i <= 10; ++i) {
+    CHECK(std::abs(priority_weight(i, 10, 1.0, 0.006, 0.5) - expected[i - 1]) < 1e-12);
+  }
+}
+
+TEST_CASE("priority: weights never rise, fall in a straight line up to kappa N and stay at w_min") {
+  for (const double kappa : {0.0, 0.2, 0.35, 0.5, 1.0}) {
+    for (std::size_t n = 1; n < 40; ++n) {
+      for (std::size_t i = 1; i < n; ++i) {
+        const double weight = priority_weight(i, n, 2.0, 0.01, kappa);
+        const double next = priority_weight(i + 1, n, 2.0, 0.01, kappa);
+        CHECK(next <= weight);
+        const double range = kappa * double(n);
+        if (double(i) >= range) CHECK(weight == 0.01);
+        if (double(i) < range) CHECK(is_near(weight, 2.0 - 1.99 * double(i) / range));
+      }
+    }
+  }
+}
+
+TEST_CASE("priority: with few items all weigh the same") {
+  for (std::size_t n = 1; n <= 2; ++n) {
+    for (std::size_t i = 1; i <= n; ++i) CHECK(priority_weight(i, n, 1.0, 0.006, 0.5) == 0.006);
+  }
+}
+
+TEST_CASE("priority: the terminal bud leads whatever its light, until it no longer does") {
+  Fork fork;
+  Parameters parameters;
+  parameters.kappa = 1.0;
+  std::vector<double> v;
+  const auto weight = [&](std::size_t place) { return priority_weight(place, 3, 1.0, 0.006, 1.0); };
+
+  // Terminal (0.5), then by mean light: the lateral axis (1.0) and the axillary bud (0.25).
+  allocate_priority(fork.plant, fork.light, fork.sums, parameters, 1, v);
+  double demand = 0.5 * weight(1) + 1.0 * weight(2) + 0.25 * weight(3);
+  CHECK(is_near(v[0], 3.5 * 0.5 * weight(1) / demand));
+  CHECK(is_near(v[2], 3.5 * 1.0 * weight(2) / demand));
+  CHECK(is_near(sum(v), 3.5));
+
+  // Released: the better lit lateral goes first.
+  parameters.terminal_first_until = 4;
+  allocate_priority(fork.plant, fork.light, fork.sums, parameters, 5, v);
+  demand = 1.0 * weight(1) + 0.5 * weight(2) + 0.25 * weight(3);
+  CHECK(is_near(v[2], 3.5 * 1.0 * weight(1) / demand));
+}
+
+TEST_CASE("priority: among equals the one nearest the tip leads, the terminal bud before its axillary") {
+  Plant plant = seedling(Parameters{});
+  add_node(plant, 0, 0);
+  add_node(plant, 1, 0);
+  plant.buds = {{.node = 1, .axis = 0, .is_terminal = false},
+                {.node = 2, .axis = 0, .is_terminal = false},
+                {.node = 2, .axis = 0, .is_terminal = true}};
+  const std::vector<double> light = {1.0, 1.0, 1.0};
+  LightSums sums;
+  sum_light(plant, light, sums);
+  Parameters parameters;
+  parameters.kappa = 1.0;
+  parameters.terminal_first_until = 0;
+  std::vector<double> v;
+  allocate_priority(plant, light, sums, parameters, 1, v);
+  CHECK(v[2] > v[1]);
+  CHECK(v[1] > v[0]);
+}
+
+TEST_CASE("allocation: in the dark nobody gets anything") {
+  Fork fork;
+  fork.light = {0.0, 0.0, 0.0};
+  sum_light(fork.plant, fork.light, fork.sums);
+  Parameters parameters;
+  parameters.alpha0 = 3.0;
+  std::vector<double> v;
+  allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, v);
+  CHECK(v == std::vector<double>{0, 0, 0});
+  allocate_priority(fork.plant, fork.light, fork.sums, parameters, 1, v);
+  CHECK(v == std::vector<double>{0, 0, 0});
+}
+
+TEST_CASE(
+    "allocation: what the buds are offered is what the root has, at every step of every preset, either way") {
+  for (const std::string& preset : growth_presets()) {
+    for (const char* model : {"priority", "borchert-honda"}) {
+      INFO(preset << " " << model);
+      Parameters parameters = growth_parameters(preset, {std::string("growth.allocation=") + model});
+      parameters.steps = std::min(parameters.steps, 12);
+      Simulation simulation(parameters);
+      while (simulation.step() < parameters.steps) {
+        REQUIRE(simulation.advance());
+        const double root = root_vigour(simulation.sums(), parameters, simulation.step());
+        CHECK(std::abs(sum(simulation.vigour()) - root) <= 1e-9 * root);
+      }
+    }
+  }
+}
