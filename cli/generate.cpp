@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -32,13 +33,18 @@ struct GenerateFlags {
   RunFlags running;
 };
 
-std::vector<Output> outputs_of(const GenerateFlags& flags) {
+std::vector<Output> outputs_of(const GenerateFlags& flags, const AnyEngine& engine) {
   std::vector<Output> outputs;
   for (const std::string& path : flags.outputs) outputs.push_back(output_of(path));
   if (!flags.shadow.empty()) outputs.push_back({OutputForm::shadow_grid, flags.shadow});
   if (!flags.graph.empty()) outputs.push_back({OutputForm::graph, flags.graph});
   std::set<std::filesystem::path> seen;
   for (const Output& output : outputs) {
+    const std::string layer = output.layer();
+    if (!layer.empty() &&
+        std::find(engine.layers.begin(), engine.layers.end(), layer) == engine.layers.end()) {
+      throw InputError(fmt::format("the engine '{}' has no {}", engine.name, layer));
+    }
     for (const std::filesystem::path& file : output.files()) {
       require_writable(file);
       if (!seen.insert(file.lexically_normal()).second) {
@@ -54,8 +60,7 @@ RunContext context_for(const GenerateFlags& flags, const std::vector<Output>& ou
   context.stop = std::move(stop);
   context.wants_history = flags.with_history || flags.at_step >= 0;
   for (const Output& output : outputs) {
-    if (output.form == OutputForm::shadow_grid) context.layers.push_back("shadow");
-    if (output.form == OutputForm::graph) context.layers.push_back("graph");
+    if (!output.layer().empty()) context.layers.push_back(output.layer());
   }
   return context;
 }
@@ -143,7 +148,7 @@ void generate(const GenerateFlags& flags, const Session& session) {
     throw InputError(
         fmt::format("--at-step: {} is after the last step (0 to {})", flags.at_step, job.steps()));
   }
-  const std::vector<Output> outputs = outputs_of(flags);
+  const std::vector<Output> outputs = outputs_of(flags, *job.engine);
   RunResult run = run_with_progress(job, context_for(flags, outputs, session.stop), flags.running);
   run.skeleton = wanted_state(std::move(run.skeleton), flags, job);
 

@@ -49,12 +49,6 @@ std::string suggestion(const std::string& word, const CLI::App& program) {
   return nearest.empty() ? "`ramify --help` lists what is" : fmt::format("did you mean '{}'?", nearest);
 }
 
-/// The words of the command line that nothing took.
-std::vector<std::string> unexpected_words(const CLI::App& program) {
-  std::vector<std::string> words = program.remaining(true);
-  return words;
-}
-
 int parse_and_run(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
@@ -63,7 +57,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
   } catch (const CLI::CallForVersion& call) {
     return program.exit(call);
   } catch (const CLI::ExtrasError&) {
-    const std::string word = unexpected_words(program).front();
+    const std::string word = program.remaining(true).front();
     return fail(kBadInput, fmt::format("'{}' is not known ({})", word, suggestion(word, program)));
   } catch (const CLI::ParseError& error) {
     return fail(kBadInput, error.what());

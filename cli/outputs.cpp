@@ -44,13 +44,11 @@ fs::path material_path(fs::path obj) {
   return obj.replace_extension(".mtl");
 }
 
-/// The data of a layer. Throws InputError where the engine makes no layer of that name.
 template <class Data>
 const Data& layer_data(const Results& results, const std::string& name) {
-  for (const Layer& layer : results.run.layers) {
-    if (layer.name == name) return std::get<Data>(layer.data);
-  }
-  throw InputError(fmt::format("the engine '{}' has no {}", results.job.engine->name, name));
+  const std::vector<Layer>& layers = results.run.layers;
+  const auto is_named = [&](const Layer& layer) { return layer.name == name; };
+  return std::get<Data>(std::find_if(layers.begin(), layers.end(), is_named)->data);
 }
 
 Image picture(const Results& results) {
@@ -74,6 +72,12 @@ bool Output::needs_mesh() const {
       return false;
   }
   return false;
+}
+
+std::string Output::layer() const {
+  if (form == OutputForm::shadow_grid) return "shadow";
+  if (form == OutputForm::graph) return "graph";
+  return {};
 }
 
 std::vector<fs::path> Output::files() const {
@@ -116,10 +120,10 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
       write_png(picture(results), files.add(path));
       break;
     case OutputForm::shadow_grid:
-      write_vdb(layer_data<VoxelLayer>(results, "shadow"), "shadow", files.add(path));
+      write_vdb(layer_data<VoxelLayer>(results, output.layer()), "shadow", files.add(path));
       break;
     case OutputForm::graph: {
-      const auto& graph = layer_data<LineLayer>(results, "graph");
+      const auto& graph = layer_data<LineLayer>(results, output.layer());
       write_edge_table(graph, files.add(path));
       write_node_table(graph, files.add(node_table_path(path)));
       break;

@@ -18,6 +18,8 @@ struct Output {
   std::filesystem::path path;
 
   bool needs_mesh() const;
+  /// The layer that it shows; empty if none.
+  std::string layer() const;
   /// The files it consists of: an .obj has its .mtl, a graph its .nodes.csv.
   std::vector<std::filesystem::path> files() const;
 };
@@ -32,7 +34,7 @@ struct Results {
   const Mesh& mesh;  // empty where no output needs it
 };
 
-/// Adds the output's files to `files`. Throws InputError where the engine has no such thing, RunError.
+/// Adds the output's files to `files`. The run must have made the output's layer. Throws RunError.
 void write_output(const Output& output, const Results& results, OutputFiles& files);
 
 }  // namespace ramify::cli

@@ -8,7 +8,6 @@
 
 #include "cli/commands.h"
 #include "common/base/errors.h"
-#include "common/config/field.h"
 
 namespace ramify::cli {
 namespace {
@@ -24,12 +23,7 @@ void print_one(const std::string& name) {
     fmt::print("{}", preset->text);
     return;
   }
-  std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.emplace_back(preset.name);
-  const std::string nearest = nearest_name(name, names);
-  throw InputError(fmt::format(
-      "{}: no such preset ({})", name,
-      nearest.empty() ? "`ramify presets` lists them" : fmt::format("did you mean '{}'?", nearest)));
+  throw InputError(fmt::format("{}: no such preset ({})", name, preset_hint(name)));
 }
 
 void print_all(const PresetFlags& flags) {

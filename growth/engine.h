@@ -1,6 +1,7 @@
 // The growth engine: self-organizing trees after Palubicki et al. 2009.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@ namespace ramify::growth {
 struct Engine {
   using Parameters = growth::Parameters;
   static constexpr std::string_view name = "growth";
+  static constexpr std::array<std::string_view, 1> layers = {"shadow"};
 
   static int steps(const Parameters& parameters) { return parameters.steps; }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "common/base/errors.h"
+#include "common/base/stopwatch.h"
 #include "pathplan/edge_rules.h"
 #include "pathplan/endpoints.h"
 #include "pathplan/graph.h"
@@ -18,36 +18,6 @@
 
 namespace ramify::pathplan {
 namespace {
-
-/// Times the stages of a run and tells the caller of each.
-class Stages {
- public:
-  Stages(const RunContext& context, Report& report) : context_(context), report_(report) {}
-  ~Stages() { end(); }
-
-  /// Ends the stage before it.
-  void begin(std::string_view stage) {
-    end();
-    stage_ = stage;
-    begun_ = Clock::now();
-    context_.report({.stage = stage_});
-  }
-
-  void end() {
-    if (stage_.empty()) return;
-    const std::chrono::duration<double> taken = Clock::now() - begun_;
-    report_.seconds.emplace_back(stage_, taken.count());
-    stage_ = {};
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  const RunContext& context_;
-  Report& report_;
-  std::string_view stage_;
-  Clock::time_point begun_;
-};
 
 Graph make_graph(const Level& level, Nodes nodes, std::uint64_t seed, const std::stop_token& stop) {
   Graph graph;
@@ -102,9 +72,8 @@ Layer endpoint_layer(const Graph& graph, std::span<const std::uint32_t> endpoint
 bool plan(const Parameters& parameters, const Taper& taper, const RunContext& context, RunResult& result) {
   const Level& level = parameters.levels.front();
   const std::uint64_t seed = parameters.seed;
-  Stages stages(context, result.report);
+  Stopwatch watch;
 
-  stages.begin("nodes");
   Nodes nodes = scatter_nodes(level.volume, parameters.root,
                               {.nodes = level.nodes, .spacing = level.spacing, .seed = seed}, context.stop,
                               [&](double done, double total) {
@@ -114,20 +83,25 @@ bool plan(const Parameters& parameters, const Taper& taper, const RunContext& co
   const double max_edge = level.max_edge * nodes.spacing;
   const std::vector<std::uint32_t> endpoints = choose_endpoints(nodes.position, level, seed);
 
-  stages.begin("graph");
+  watch.lap("nodes");
+  context.report({.stage = "graph"});
   const Graph graph = make_graph(level, std::move(nodes), seed, context.stop);
   if (context.stop.stop_requested()) return false;
 
-  stages.begin("paths");
+  watch.lap("graph");
+  context.report({.stage = "paths"});
   const ShortestPaths paths = shortest_paths(graph, 0, context.stop);
   if (context.stop.stop_requested()) return false;
   require_reached(paths, endpoints, max_edge);
   result.report.groups.push_back(graph_statistics(graph, paths));
 
-  stages.begin("tree");
+  watch.lap("paths");
+  context.report({.stage = "tree"});
   result.skeleton = make_tree(graph, paths, endpoints, taper);
   if (context.wants("graph")) result.layers.push_back(graph_layer(graph));
   if (context.wants("endpoints")) result.layers.push_back(endpoint_layer(graph, endpoints));
+  watch.lap("tree");
+  result.report.seconds = watch.seconds();
   return true;
 }
 

@@ -3,6 +3,7 @@
 // L. Xu and D. Mould, A procedural method for irregular tree models, Computers & Graphics 36(8), 2012.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ namespace ramify::pathplan {
 struct Engine {
   using Parameters = pathplan::Parameters;
   static constexpr std::string_view name = "pathplan";
+  static constexpr std::array<std::string_view, 2> layers = {"graph", "endpoints"};
 
   /// How many levels are planned.
   static int steps(const Parameters& parameters) { return static_cast<int>(planned_levels(parameters)); }

@@ -65,6 +65,7 @@ struct RunResult {
 template <class E>
 concept TreeEngine = requires(const typename E::Parameters& parameters, const RunContext& context) {
   { E::name } -> std::convertible_to<std::string_view>;
+  { E::layers[0] } -> std::convertible_to<std::string_view>;
   { E::Parameters::fields() } -> std::same_as<const Table&>;
   { E::check(parameters) } -> std::same_as<std::vector<std::string>>;
   { E::run(parameters, context) } -> std::same_as<RunResult>;
@@ -74,8 +75,9 @@ concept TreeEngine = requires(const typename E::Parameters& parameters, const Ru
 /// An engine with its types erased; parameters go by address.
 struct AnyEngine {
   std::string name;
-  Table top_fields;  // rows that stand at the top of a config: seed, steps
-  Table fields;      // the others, in the table that has the engine's name
+  Table top_fields;                 // rows that stand at the top of a config: seed, steps
+  Table fields;                     // the others, in the table that has the engine's name
+  std::vector<std::string> layers;  // that it can make
   std::function<std::shared_ptr<void>()> make_parameters;
   std::function<std::shared_ptr<void>(const void* parameters)> copy_parameters;
   std::function<std::uint64_t(const void* parameters)> seed;
@@ -91,6 +93,7 @@ class EngineRegistry {
     using P = typename E::Parameters;
     AnyEngine engine;
     engine.name = E::name;
+    engine.layers.assign(E::layers.begin(), E::layers.end());
     for (const FieldRow& row : P::fields()) {
       (row.info.is_top_level ? engine.top_fields : engine.fields).push_back(row);
     }

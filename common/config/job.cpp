@@ -35,12 +35,7 @@ Source find_source(const std::string& config, const fs::path& folder, const std:
     return {name, path.parent_path(), read_file(path)};
   }
 
-  std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.emplace_back(preset.name);
-  const std::string nearest = nearest_name(config, names);
-  const std::string problem = fmt::format(
-      "no such file or preset ({})",
-      nearest.empty() ? "`ramify presets` lists the presets" : fmt::format("did you mean '{}'?", nearest));
+  const std::string problem = fmt::format("no such file or preset ({})", preset_hint(config));
   if (where.empty()) throw InputError(fmt::format("{}: {}", config, problem));
   throw ConfigError(where, "base", fmt::format("'{}': {}", config, problem));
 }

@@ -1,6 +1,11 @@
 #include "common/config/presets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <vector>
+
+#include "common/config/field.h"
 
 namespace ramify {
 
@@ -16,6 +21,13 @@ const Preset* find_preset(std::string_view name) {
     if (preset.name == name) return &preset;
   }
   return nullptr;
+}
+
+std::string preset_hint(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.emplace_back(preset.name);
+  const std::string nearest = nearest_name(name, names);
+  return nearest.empty() ? "`ramify presets` lists them" : fmt::format("did you mean '{}'?", nearest);
 }
 
 std::string_view summary(const Preset& preset) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
-#include <vector>
 
 namespace ramify {
 
@@ -18,6 +18,9 @@ std::span<const Preset> presets();
 
 /// nullptr if there is none of that name.
 const Preset* find_preset(std::string_view name);
+
+/// For messages about a name that is no preset's: "did you mean 's4-fig6'?", or how to list them.
+std::string preset_hint(std::string_view name);
 
 /// The first comment line of a preset: what it shows.
 std::string_view summary(const Preset& preset);

@@ -4,6 +4,7 @@
 
 #include "common/config/presets.h"
 #include "growth/engine.h"
+#include "pathplan/engine.h"
 
 namespace ramify::test {
 
@@ -20,10 +21,13 @@ growth::Parameters growth_parameters(const std::string& preset, const std::vecto
 }
 
 std::vector<std::string> growth_presets() {
+  EngineRegistry registry;
+  growth::register_engine(registry);
+  pathplan::register_engine(registry);
   std::vector<std::string> names;
   for (const Preset& preset : presets()) {
-    const bool is_growth = preset.group == "s4" || preset.group == "p09" || preset.group == "species";
-    if (is_growth) names.emplace_back(preset.name);
+    if (load_job(registry, std::string(preset.name)).engine->name == "growth")
+      names.emplace_back(preset.name);
   }
   return names;
 }
