@@ -75,7 +75,6 @@ int run(int argc, char** argv) {
   CLI::App program("Trees by self-organization and by path planning", "ramify");
   program.set_version_flag("--version", "ramify " + version());
   program.require_subcommand(0, 1);
-  program.set_help_all_flag("--help-all", "Help of all commands");
   add_generate(program, session);
   add_render(program, session);
   add_presets(program);

@@ -14,6 +14,11 @@
 namespace ramify::cli {
 namespace {
 
+constexpr const char* kSources = R"(
+Sources: P09 Palubicki et al. 2009, Self-organizing tree models for image synthesis; SOT the values of its public
+demo; S4 Tree Generation, a student report; XM12 Xu and Mould 2012, A procedural method for irregular tree models.
+)";
+
 struct ParamsFlags {
   std::string engine;
   bool is_toml = false;
@@ -91,6 +96,7 @@ void print_params(const ParamsFlags& flags, const EngineRegistry& registry) {
   for (const AnyEngine& engine : registry.engines()) {
     if (!only || only == &engine) print_parameters(engine, flags.is_json);
   }
+  if (!flags.is_json) fmt::print("{}", kSources);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include <cstring>
+#include <algorithm>
 
 #include "common/base/files.h"
 #include "tests/catch.h"
@@ -76,6 +76,16 @@ TEST_CASE("render: no display is needed") {
   CHECK(run_program("render s4-fig3 -o p.png --size 64x64", folder.path().string(),
                     "env -u DISPLAY -u WAYLAND_DISPLAY ")
             .code == 0);
+}
+
+TEST_CASE("render: where there is no OpenGL one line says what to install, and the exit code is 1") {
+  const Folder folder;
+  const Outcome outcome = run_program("render s4-fig3 -o p.png", folder.path().string(),
+                                      "env __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null ");
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.rfind("ramify: no OpenGL 3.3 to draw with: ", 0) == 0);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(folder.count() == 0);
 }
 
 TEST_CASE("render: what cannot be drawn is one line and leaves no file") {
