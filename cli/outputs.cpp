@@ -45,9 +45,9 @@ fs::path material_path(fs::path obj) {
 }
 
 template <class Data>
-const Data& layer_data(const Results& results, const std::string& name) {
+const Data& layer_data(const Results& results, const Output& output) {
   const std::vector<Layer>& layers = results.run.layers;
-  const auto is_named = [&](const Layer& layer) { return layer.name == name; };
+  const auto is_named = [&](const Layer& layer) { return layer.name == output.layer(); };
   return std::get<Data>(std::find_if(layers.begin(), layers.end(), is_named)->data);
 }
 
@@ -120,10 +120,10 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
       write_png(picture(results), files.add(path));
       break;
     case OutputForm::shadow_grid:
-      write_vdb(layer_data<VoxelLayer>(results, output.layer()), "shadow", files.add(path));
+      write_vdb(layer_data<VoxelLayer>(results, output), "shadow", files.add(path));
       break;
     case OutputForm::graph: {
-      const auto& graph = layer_data<LineLayer>(results, output.layer());
+      const auto& graph = layer_data<LineLayer>(results, output);
       write_edge_table(graph, files.add(path));
       write_node_table(graph, files.add(node_table_path(path)));
       break;

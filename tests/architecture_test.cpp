@@ -138,3 +138,16 @@ TEST_CASE("architecture: common has its seven folders and nothing loose") {
     if (!entry.is_directory()) CHECK(name == "CMakeLists.txt");
   }
 }
+
+TEST_CASE("architecture: no test has a name that CTest would cut up") {
+  for (const fs::path& path : sources_below("tests")) {
+    std::ifstream file(path);
+    std::string line;
+    while (std::getline(file, line)) {
+      if (line.rfind("TEST_CASE(\"", 0) != 0) continue;
+      const std::string name = line.substr(11, line.find('"', 11) - 11);
+      INFO(path.string() << ": " << name);
+      CHECK(name.find_first_of("[];\\") == std::string::npos);
+    }
+  }
+}

@@ -164,7 +164,8 @@ TEST_CASE("errors: a broken table or mesh is one line with its row") {
   CHECK(folder.count() == 2);
 }
 
-TEST_CASE("progress: plain lines without a terminal begin after two seconds, and --quiet has none") {
+TEST_CASE("progress: plain lines without a terminal begin after two seconds, and --quiet has none",
+          "[slow]") {
   const std::string run = "generate p09-fig7-50 --steps 300 --set growth.max_internodes=3000000 ";
   const Outcome short_run = run_program("generate s4-fig6");
   CHECK(short_run.err.empty());

@@ -89,7 +89,7 @@ TEST_CASE("generate: without -o nothing is written and the summary still comes")
   CHECK(run_program("generate s4-fig6 --quiet").out.empty());
 }
 
-TEST_CASE("generate: the same bytes twice in a row and with 1 and 2 threads, for both engines") {
+TEST_CASE("generate: the same bytes twice in a row and with 1 and 2 threads, for both engines", "[slow]") {
   for (const std::string preset : {"s4-improved", "xm12-fig5"}) {
     const Folder folder;
     std::vector<std::string> files;
@@ -210,7 +210,7 @@ TEST_CASE("presets: the list, the names and one preset ready to edit") {
   CHECK(read_file(folder.file("a.csv")) == read_file(folder.file("b.csv")));
 }
 
-TEST_CASE("params: every parameter with default, meaning and source; --toml is a config that runs") {
+TEST_CASE("params: every parameter with default, meaning and source, and --toml is a config that runs") {
   const Folder folder;
   const std::string where = folder.path().string();
   const Outcome all = run_program("params");

@@ -90,8 +90,7 @@ TEST_CASE("job: what stands around the engine's table is checked too") {
   CHECK(error_in("engine = \"growth\"\n[growth]\nbraching_angle_deg = 40\n") ==
         "oak.toml:3: growth.braching_angle_deg: unknown key; did you mean 'growth.branching_angle_deg'?");
   CHECK(error_of("s4-fgi6") == "s4-fgi6: no such file or preset (did you mean 's4-fig6'?)");
-  CHECK(error_of("qqqqqqqqqqqq") ==
-        "qqqqqqqqqqqq: no such file or preset (`ramify presets` lists them)");
+  CHECK(error_of("qqqqqqqqqqqq") == "qqqqqqqqqqqq: no such file or preset (`ramify presets` lists them)");
 }
 
 TEST_CASE("job: what no range can say is found with file and line") {

@@ -81,7 +81,7 @@ TEST_CASE("shoots: without weights a shoot goes on in its default direction") {
   CHECK(glm::length(plant.position.back() - Vec3(0, 0.4, 0)) < 1e-12);
 }
 
-TEST_CASE("shoots: nothing grows below ground; blocked at once a bud dies, later it stops") {
+TEST_CASE("shoots: nothing grows below ground, a bud blocked at once dies and later it stops") {
   Parameters parameters;
   parameters.tropism["down"] = {.weight = 10.0, .direction = Vec3(0, -2, 0)};
   parameters.w_optimal = 0.0;

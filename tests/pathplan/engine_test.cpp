@@ -32,11 +32,11 @@ RunResult run_with_layers(const Parameters& parameters) {
 }
 
 template <class T>
-const T& layer(const RunResult& result, const std::string& name) {
+const T& layer(const RunResult& result, std::string_view name) {
   for (const Layer& candidate : result.layers) {
     if (candidate.name == name) return std::get<T>(candidate.data);
   }
-  throw std::out_of_range(name);
+  throw std::out_of_range(std::string(name));
 }
 
 bool is_same(const Skeleton& a, const Skeleton& b) {
