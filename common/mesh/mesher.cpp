@@ -79,9 +79,8 @@ Tubes trace_tubes(const Skeleton& skeleton) {
   for (std::uint32_t root = 0; root < skeleton.root_count(); ++root) {
     if (continuation[root] != kNoParent) trace(root, continuation[root], true);
   }
-  for (const std::uint32_t founder : founders) {
-    trace(skeleton.parent[founder], founder, skeleton.is_root(skeleton.parent[founder]));
-  }
+  // Laterals at a root start inside the trunk's wood, like all others.
+  for (const std::uint32_t founder : founders) trace(skeleton.parent[founder], founder, false);
   return result;
 }
 

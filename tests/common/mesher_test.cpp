@@ -135,3 +135,18 @@ TEST_CASE("mesher: the number of threads does not change the mesh") {
   CHECK(one.positions == two.positions);
   CHECK(one.triangles == two.triangles);
 }
+
+TEST_CASE("mesher: a lateral at the root is as thin there as further on") {
+  Skeleton s = pole(2);
+  s.position.push_back(Vec3(1, 0, 0));
+  s.parent.push_back(0);
+  s.diameter.push_back(0.02);
+  s.kind.push_back(Kind::stem);
+  assign_axes(s);
+  const Mesh mesh = build_mesh(s, {});
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.internodes[v] != 3) continue;
+    const Vec3f& p = mesh.positions[v];
+    CHECK(std::hypot(p.y, p.z) < 0.0101f);
+  }
+}
