@@ -46,6 +46,10 @@ std::string allowed_values(const FieldRow& row) {
       return "three numbers [x, y, z], each " + range_text(row.info);
     case FieldKind::schedule:
       return fmt::format("a number, {}, or [[step, value], ...] with rising steps", range_text(row.info));
+    case FieldKind::sketch:
+      return fmt::format("a list of points [[x, y], ...], each number {}", range_text(row.info));
+    case FieldKind::path:
+      return "a file's path in quotes, seen from the config's own folder";
     case FieldKind::group:
       return "a table";
     case FieldKind::list:

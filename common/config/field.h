@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -13,10 +14,24 @@
 
 #include "common/base/geometry.h"
 #include "common/config/schedule.h"
+#include "common/config/sketch.h"
 
 namespace ramify {
 
-enum class FieldKind { number, integer, seed, boolean, choice, vector, schedule, group, list, map };
+enum class FieldKind {
+  number,
+  integer,
+  seed,
+  boolean,
+  choice,
+  vector,
+  schedule,
+  sketch,
+  path,
+  group,
+  list,
+  map
+};
 
 /// What a table says about a parameter beside its key and place. Every number has a finite range.
 struct FieldInfo {
@@ -27,8 +42,9 @@ struct FieldInfo {
   std::string help = {};                  // one line
   std::string source = {};                // paper and equation
   std::vector<std::string> choices = {};  // names of an enum's values 0, 1, ...
-  bool is_top_level = false;  // stands at the top of a config, not in the engine's table (seed, steps)
-  bool inherits = false;      // list: an item starts as a copy of the one before it
+  bool is_top_level = false;    // stands at the top of a config, not in the engine's table (seed, steps)
+  bool inherits = false;        // list: an item starts as a copy of the one before it
+  bool inherits_owner = false;  // list: an item has its owner's value where it does not set its own
 };
 
 struct FieldRow;
@@ -40,7 +56,8 @@ struct FieldRow {
   FieldKind kind = FieldKind::number;
   FieldInfo info;
   std::function<void*(void* owner)> member;  // address of the member; its type follows from `kind`
-  std::function<const Table&()> child;       // group, list, map: the table of what they hold
+  std::function<void(void* member, const void* other)> copy;  // assigns another owner's member
+  std::function<const Table&()> child;                        // group, list, map: the table of what they hold
 
   // choice
   std::function<int(const void* member)> choice;
@@ -62,7 +79,9 @@ concept HasFields = requires {
 };
 
 /// {key, member, info}: a row of the table of P. Members may be double, int, std::uint64_t (a seed), bool, an
-/// enum, Vec3, Schedule, a struct with a table of its own, a vector of such or a map of named ones.
+/// enum, Vec3, Schedule, Sketch, a file's path, a struct with a table of its own, a vector of such or a map
+/// of named ones. A path is read relative to the folder of the file that names it and kept so that it opens
+/// from the working directory.
 template <class P>
 struct Field : FieldRow {
   template <class M>
@@ -70,6 +89,7 @@ struct Field : FieldRow {
     key = std::move(field_key);
     info = std::move(field_info);
     member = [field_member](void* owner) -> void* { return &(static_cast<P*>(owner)->*field_member); };
+    copy = [](void* to, const void* from) { *static_cast<M*>(to) = *static_cast<const M*>(from); };
     set_kind<M>();
   }
 
@@ -101,6 +121,10 @@ struct Field : FieldRow {
       kind = FieldKind::vector;
     } else if constexpr (std::is_same_v<M, Schedule>) {
       kind = FieldKind::schedule;
+    } else if constexpr (std::is_same_v<M, Sketch>) {
+      kind = FieldKind::sketch;
+    } else if constexpr (std::is_same_v<M, std::filesystem::path>) {
+      kind = FieldKind::path;
     } else if constexpr (std::is_enum_v<M>) {
       kind = FieldKind::choice;
       choice = [](const void* value) { return static_cast<int>(*static_cast<const M*>(value)); };
@@ -154,6 +178,18 @@ struct Field : FieldRow {
 template <class P>
 Table make_table(std::initializer_list<Field<P>> rows) {
   return Table(rows.begin(), rows.end());
+}
+
+/// The rows of Base for a table of P, which is derived from it.
+template <class P, class Base>
+Table rows_of_base() {
+  Table rows = Base::fields();
+  for (FieldRow& row : rows) {
+    row.member = [member = row.member](void* owner) {
+      return member(static_cast<Base*>(static_cast<P*>(owner)));
+    };
+  }
+  return rows;
 }
 
 /// "0 to 1", "more than 0 to 100", "true or false", "light | space": what a field allows, for messages and

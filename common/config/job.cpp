@@ -8,6 +8,7 @@
 
 #include "common/base/errors.h"
 #include "common/base/files.h"
+#include "common/config/inheritance.h"
 #include "common/config/presets.h"
 #include "common/config/toml_writer.h"
 
@@ -22,7 +23,7 @@ constexpr int kMaxBaseDepth = 16;
 /// A config's text and what to call it in messages.
 struct Source {
   std::string name;
-  fs::path folder;  // where its base is looked for
+  fs::path folder;  // where its base and the files it names are looked for
   std::string text;
 };
 
@@ -61,7 +62,7 @@ const AnyEngine& named_engine(const EngineRegistry& registry, const TomlDocument
 
 void read_source(const EngineRegistry& registry, const Source& source, int depth, Job& job,
                  Origins& origins) {
-  const TomlDocument document(source.text, source.name);
+  const TomlDocument document(source.text, source.name, source.folder);
   if (const std::optional<std::string> base = document.top_string("base")) {
     if (depth >= kMaxBaseDepth) {
       throw ConfigError(
@@ -143,6 +144,7 @@ Job load_job(const EngineRegistry& registry, const std::string& config, std::spa
   read_source(registry, find_source(config, {}, {}), 0, job, origins);
   const Table table = job_table(*job.engine);
   for (const Override& o : overrides) assign(table, &job, o.key, o.value, o.flag, origins);
+  inherit_from_owners(table, &job, {}, origins);
   job.warnings = checked(job, origins);
   return job;
 }

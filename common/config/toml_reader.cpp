@@ -51,9 +51,10 @@ std::string key_in_groups(const Table& table, std::string_view key, const std::s
 /// One walk over a table and the TOML that goes into it.
 class Reader {
  public:
-  /// `file` names the text; with `fixed_where` all messages begin with it instead of FILE:LINE.
-  Reader(std::string file, bool has_lines, Origins& origins)
-      : file_(std::move(file)), has_lines_(has_lines), origins_(origins) {}
+  /// `file` names the text; without lines all messages begin with it instead of FILE:LINE. Paths in the text
+  /// start from `folder`.
+  Reader(std::string file, bool has_lines, std::filesystem::path folder, Origins& origins)
+      : file_(std::move(file)), has_lines_(has_lines), folder_(std::move(folder)), origins_(origins) {}
 
   void read_table(const Table& table, void* owner, const toml::table& values, const std::string& prefix,
                   const std::vector<std::string>& but_for = {}) {
@@ -177,6 +178,12 @@ class Reader {
         break;
       case FieldKind::schedule:
         *static_cast<Schedule*>(member) = schedule(row, node, path);
+        break;
+      case FieldKind::sketch:
+        *static_cast<Sketch*>(member) = sketch(row, node, path);
+        break;
+      case FieldKind::path:
+        *static_cast<std::filesystem::path*>(member) = file_path(row, node, path);
         break;
       case FieldKind::group:
         read_table(row.child(), member, table(row, node, path), path);
@@ -309,15 +316,41 @@ class Reader {
     return Schedule(std::move(points));
   }
 
+  /// "" is no file.
+  std::filesystem::path file_path(const FieldRow& row, const toml::node& node,
+                                  const std::string& path) const {
+    const auto* text = node.as_string();
+    if (!text) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (text->get().empty()) return {};
+    return (folder_ / text->get()).lexically_normal();
+  }
+
+  Sketch sketch(const FieldRow& row, const toml::node& node, const std::string& path) const {
+    const toml::array* items = node.as_array();
+    if (!items) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    Sketch points;
+    for (const toml::node& item : *items) {
+      const std::string item_path = joined(path, std::to_string(points.size() + 1));
+      const toml::array* point = item.as_array();
+      if (!point || point->size() != 2) {
+        fail(item, item_path, fmt::format("a point is [x, y] ({})", allowed_values(row)));
+      }
+      points.emplace_back(number(row, *point->get(0), item_path), number(row, *point->get(1), item_path));
+    }
+    return points;
+  }
+
   std::string file_;
   bool has_lines_;
+  std::filesystem::path folder_;
   Origins& origins_;
 };
 
-/// The value of `--set KEY=VALUE`: TOML, or a bare word taken as a string.
+/// The value of `--set KEY=VALUE`: TOML, or a bare word or path taken as a string.
 toml::table parsed_value(std::string_view value, const std::string& where, std::string_view key) {
   const auto is_word_character = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("-_./").find(c) != std::string_view::npos;
   };
   try {
     return toml::parse(fmt::format("value = {}", value));
@@ -334,11 +367,12 @@ toml::table parsed_value(std::string_view value, const std::string& where, std::
 struct TomlDocument::Parsed {
   toml::table values;
   std::string file;
+  std::filesystem::path folder;
 };
 
-TomlDocument::TomlDocument(std::string_view text, std::string file) {
+TomlDocument::TomlDocument(std::string_view text, std::string file, std::filesystem::path folder) {
   try {
-    parsed_ = std::make_unique<Parsed>(Parsed{toml::parse(text), file});
+    parsed_ = std::make_unique<Parsed>(Parsed{toml::parse(text), file, std::move(folder)});
   } catch (const toml::parse_error& error) {
     std::string description(error.description());
     // toml++ may say on several lines what we say on one.
@@ -363,13 +397,14 @@ std::string TomlDocument::where(std::string_view key) const {
 
 void TomlDocument::read_into(const Table& table, void* owner, const std::vector<std::string>& but_for,
                              Origins& origins) const {
-  Reader(parsed_->file, true, origins).read_table(table, owner, parsed_->values, "", but_for);
+  Reader(parsed_->file, true, parsed_->folder, origins)
+      .read_table(table, owner, parsed_->values, "", but_for);
 }
 
 void assign(const Table& table, void* owner, std::string_view key, std::string_view value,
             const std::string& where, Origins& origins) {
   const toml::table parsed = parsed_value(value, where, key);
-  Reader(where, false, origins).assign(table, owner, key, *parsed.get("value"));
+  Reader(where, false, {}, origins).assign(table, owner, key, *parsed.get("value"));
 }
 
 }  // namespace ramify

@@ -2,6 +2,7 @@
 // allowed.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,8 +20,8 @@ using Origins = std::map<std::string, std::string>;
 /// A parsed text that remembers its file for messages.
 class TomlDocument {
  public:
-  /// Throws ConfigError at the line where `text` is no TOML.
-  TomlDocument(std::string_view text, std::string file);
+  /// `folder` is where the paths in it start from. Throws ConfigError at the line where `text` is no TOML.
+  TomlDocument(std::string_view text, std::string file, std::filesystem::path folder = {});
   ~TomlDocument();
 
   /// A string at the top; empty if there is none. Throws ConfigError if it is something else.
@@ -41,7 +42,7 @@ class TomlDocument {
 };
 
 /// One assignment, as in --set: `key` is dotted, list items count from 1; `value` is TOML, where a bare word
-/// is a string. `where` stands before messages. Throws ConfigError.
+/// or path is a string. `where` stands before messages. Throws ConfigError.
 void assign(const Table& table, void* owner, std::string_view key, std::string_view value,
             const std::string& where, Origins& origins);
 

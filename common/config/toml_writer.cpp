@@ -10,18 +10,33 @@ bool is_table(const FieldRow& row) {
   return row.kind == FieldKind::group || row.kind == FieldKind::list || row.kind == FieldKind::map;
 }
 
+/// A TOML string with all that would end or break it escaped.
+std::string toml_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f) {
+      result += fmt::format("\\u{:04x}", code);
+      continue;
+    }
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
 /// A TOML key: bare where it can be, quoted where it must.
 std::string key_text(const std::string& key) {
   const bool is_bare = !key.empty() && key.find_first_not_of(
                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                            "0123456789_-") == std::string::npos;
-  if (is_bare) return key;
-  std::string quoted = "\"";
-  for (const char c : key) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + '"';
+  return is_bare ? key : toml_string(key);
+}
+
+std::string sketch_text(const Sketch& sketch) {
+  std::vector<std::string> points;
+  for (const Vec2& point : sketch) points.push_back(fmt::format("[{}, {}]", point.x, point.y));
+  return fmt::format("[{}]", fmt::join(points, ", "));
 }
 
 std::string schedule_text(const Schedule& schedule) {
@@ -106,6 +121,10 @@ std::string toml_value(const FieldRow& row, const void* member) {
     }
     case FieldKind::schedule:
       return schedule_text(*static_cast<const Schedule*>(member));
+    case FieldKind::sketch:
+      return sketch_text(*static_cast<const Sketch*>(member));
+    case FieldKind::path:
+      return toml_string(static_cast<const std::filesystem::path*>(member)->string());
     case FieldKind::group:
     case FieldKind::list:
     case FieldKind::map:

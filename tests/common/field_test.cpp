@@ -31,6 +31,8 @@ struct Plant {
   Colour colour = Colour::red;
   Vec3 place{1, 2, 3};
   Schedule growth = 0.5;
+  Sketch outline;
+  std::filesystem::path picture;
   Leaf leaf;
   std::vector<Leaf> leaves;
   std::map<std::string, Leaf> named;
@@ -46,6 +48,8 @@ struct Plant {
         {"colour", &Plant::colour, {.choices = {"red", "green"}}},
         {"place", &Plant::place, {.min = -5, .max = 5}},
         {"growth", &Plant::growth, {.min = 0, .max = 1}},
+        {"outline", &Plant::outline, {.min = -5, .max = 5}},
+        {"picture", &Plant::picture, {}},
         {"leaf", &Plant::leaf, {}},
         {"leaves", &Plant::leaves, {.inherits = true}},
         {"named", &Plant::named, {}},
@@ -93,6 +97,8 @@ is_tall = true
 colour = "green"
 place = [1, -2.5, 0]
 growth = [[1, 0.25], [4, 1]]
+outline = [[0, 0], [1.5, -2], [0, 4]]
+picture = "oak/leaf.png"
 leaf.width = 2.5
 named.a.width = 7
 [[leaves]]
@@ -106,6 +112,8 @@ width = 4
   CHECK(plant.colour == Colour::green);
   CHECK(plant.place == Vec3(1, -2.5, 0));
   CHECK(plant.growth.at(2.5) == 0.625);
+  CHECK(plant.outline == Sketch{{0, 0}, {1.5, -2}, {0, 4}});
+  CHECK(plant.picture == "oak/leaf.png");
   CHECK(plant.leaf.width == 2.5);
   CHECK(plant.named.at("a").width == 7.0);
   REQUIRE(plant.leaves.size() == 2);
@@ -152,6 +160,14 @@ TEST_CASE("toml: each mistake is one line with file, line, key and what is allow
         "oak.toml:1: growth: a schedule's step is a number (a number, 0 to 1, or [[step, value], ...] with "
         "rising "
         "steps)");
+  CHECK(error_of("outline = 3\n") ==
+        "oak.toml:1: outline: a whole number (a list of points [[x, y], ...], each number -5 to 5)");
+  CHECK(error_of("outline = [[0, 0], [1, 2, 3]]\n") ==
+        "oak.toml:1: outline.2: a point is [x, y] (a list of points [[x, y], ...], each number -5 to 5)");
+  CHECK(error_of("outline = [[0, 0],\n[1, 9]]\n") ==
+        "oak.toml:2: outline.2: 9 is out of range (a list of points [[x, y], ...], each number -5 to 5)");
+  CHECK(error_of("picture = 3\n") ==
+        "oak.toml:1: picture: a whole number (a file's path in quotes, seen from the config's own folder)");
   CHECK(error_of("leaf = 3\n") == "oak.toml:1: leaf: a whole number (a table)");
   CHECK(error_of("leaves = 3\n") == "oak.toml:1: leaves: a whole number (a list of tables)");
   CHECK(error_of("leaves = [3]\n") == "oak.toml:1: leaves.1: a whole number (a table)");
@@ -227,6 +243,36 @@ TEST_CASE("toml: what is written reads back to the same text") {
         std::string::npos);
   again = read(commented);
   CHECK(to_toml(Plant::fields(), &again) == text);
+}
+
+TEST_CASE("toml: a path starts from the folder of the file that names it") {
+  const auto picture = [](std::string_view text, const std::string& folder) {
+    Plant plant;
+    Origins origins;
+    TomlDocument(text, "oak.toml", folder).read_into(Plant::fields(), &plant, {}, origins);
+    return plant.picture.string();
+  };
+  CHECK(picture("picture = \"leaf.png\"\n", "") == "leaf.png");
+  CHECK(picture("picture = \"leaf.png\"\n", "trees") == "trees/leaf.png");
+  CHECK(picture("picture = \"../leaf.png\"\n", "trees/oak") == "trees/leaf.png");
+  CHECK(picture("picture = \"/tmp/leaf.png\"\n", "trees") == "/tmp/leaf.png");
+  CHECK(picture("picture = \"\"\n", "trees").empty());
+
+  Plant plant;
+  Origins origins;
+  assign(Plant::fields(), &plant, "picture", "./trees/leaf-2.png", "--set", origins);
+  CHECK(plant.picture == "trees/leaf-2.png");
+  assign(Plant::fields(), &plant, "picture", "\"a leaf.png\"", "--set", origins);
+  CHECK(plant.picture == "a leaf.png");
+}
+
+TEST_CASE("toml: a path is written so that it reads back, whatever is in it") {
+  for (const std::string name :
+       {"a \"leaf\".png", "back\\slash", "tab\tand\nline", "bl\u00e4tter/\u6a39.png"}) {
+    Plant plant;
+    plant.picture = name;
+    CHECK(read(to_toml(Plant::fields(), &plant)).picture == name);
+  }
 }
 
 TEST_CASE("names: the nearest is suggested only if it is near") {

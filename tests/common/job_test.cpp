@@ -124,7 +124,8 @@ TEST_CASE("job: every number in every table has a finite range and every key a m
       CHECK(std::isfinite(row.info.min));
       CHECK(std::isfinite(row.info.max));
       const bool is_number = row.kind == FieldKind::number || row.kind == FieldKind::integer ||
-                             row.kind == FieldKind::vector || row.kind == FieldKind::schedule;
+                             row.kind == FieldKind::vector || row.kind == FieldKind::schedule ||
+                             row.kind == FieldKind::sketch;
       if (is_number) CHECK(row.info.max > row.info.min);
       if (row.kind == FieldKind::choice) CHECK_FALSE(row.info.choices.empty());
       if (row.kind != FieldKind::group) CHECK_FALSE(row.info.help.empty());
@@ -134,6 +135,36 @@ TEST_CASE("job: every number in every table has a finite range and every key a m
     }
   };
   for (const AnyEngine& engine : engines.engines()) check(job_table(engine), {});
+}
+
+TEST_CASE("job: each file of a chain of bases names files from its own folder, --set from the working one") {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path() / "crowns");
+  const std::string points = "radius,height\n0,0\n1,2\n0,4\n";
+  write(folder, "crowns/base.csv", points);
+  write(folder, "own.csv", points);
+  write(folder, "crowns/base.toml",
+        "engine = \"pathplan\"\n[[pathplan.levels]]\nvolume.shape = \"revolution\"\n"
+        "volume.file = \"base.csv\"\n");
+  const std::string derived = write(folder, "derived.toml", "base = \"crowns/base.toml\"\n");
+  const auto file_of = [&](const Job& job) {
+    return static_cast<const pathplan::Parameters*>(job.parameters.get())
+        ->levels.front()
+        .volume.file.string();
+  };
+  const EngineRegistry engines = registry();
+  const Job job = load_job(engines, derived);
+  CHECK(file_of(job) == folder.file("crowns/base.csv"));
+  CHECK(file_of(load_job(engines, write(folder, "again.toml", to_toml(job)))) == file_of(job));
+
+  const std::string key = "pathplan.levels.1.volume.file";
+  CHECK(file_of(load_job(engines, derived, std::vector<Override>{{"--set", key, folder.file("own.csv")}})) ==
+        folder.file("own.csv"));
+  CHECK(error_of(derived, {{"--set", key, "no/such.csv"}}) ==
+        "--set: pathplan.levels.1.volume.file: no/such.csv: cannot read: No such file or directory");
+  write(folder, "crowns/base.csv", "0,0\n-1,1\n0,2\n");
+  CHECK(error_of(derived) == folder.file("crowns/base.toml") + ":4: pathplan.levels.1.volume.file: " +
+                                 folder.file("crowns/base.csv") + ": point 2: radius -1 is less than 0");
 }
 
 TEST_CASE("job: the complete config reads back to the same config") {

@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "common/base/errors.h"
-#include "common/base/rng.h"
 #include "tests/catch.h"
+#include "tests/common/solids.h"
 
 using namespace ramify;
+using ramify::test::known_volumes;
+using ramify::test::KnownVolume;
+using ramify::test::points_around;
+using ramify::test::tilts;
 
 namespace {
 
@@ -20,60 +24,10 @@ bool is_near(double value, double expected, double tolerance) {
   return std::abs(value - expected) <= tolerance;
 }
 
-const std::vector<Vec3> kDirections = {{0, 1, 0}, {0, -2, 0},     {1, 0, 0},
-                                       {1, 1, 0}, {-0.3, 0.5, 2}, {3, -1, 1}};
-
-/// A volume and its size in closed form, cubic metres.
-struct Known {
-  std::string name;
-  Volume volume;
-  double cubic_metres;
-};
-
-std::vector<Known> known_volumes() {
-  std::vector<Known> known = {
-      {"sphere", {.shape = Shape::sphere, .center = {1, 2, 3}, .radius = 2}, 4.0 / 3 * kPi * 8},
-      {"ellipsoid", {.shape = Shape::ellipsoid, .center = {0, 5, 0}, .radii = {1, 2, 3}}, 4.0 / 3 * kPi * 6},
-  };
-  for (const Vec3& direction : kDirections) {
-    known.push_back({"cylinder",
-                     {.shape = Shape::cylinder, .radius = 0.5, .height = 3, .direction = direction},
-                     kPi * 0.25 * 3});
-    known.push_back(
-        {"cone",
-         {.shape = Shape::cone, .center = {-1, 0, 2}, .radius = 1, .height = 3, .direction = direction},
-         kPi});
-    known.push_back({"hemisphere",
-                     {.shape = Shape::hemisphere, .center = {0, 4, 0}, .radius = 2, .direction = direction},
-                     2.0 / 3 * kPi * 8});
-    for (const double angle : {25.0, 60.0, 90.0, 135.0, 180.0}) {
-      known.push_back(
-          {"sphere_portion " + std::to_string(angle),
-           {.shape = Shape::sphere_portion, .radius = 2, .angle_deg = angle, .direction = direction},
-           2.0 / 3 * kPi * 8 * (1 - std::cos(radians(angle)))});
-    }
-  }
-  return known;
-}
-
 Volume two_balls(double apart) {
   return {.shape = Shape::union_of,
           .parts = {{.shape = Shape::sphere, .radius = 1},
                     {.shape = Shape::sphere, .center = {apart, 0, 0}, .radius = 1}}};
-}
-
-/// Points all over a box that is somewhat larger than the volume's.
-std::vector<Vec3> points_around(const Volume& volume, std::uint64_t count) {
-  const Box box = bounds(volume);
-  std::vector<Vec3> points;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    Rng rng = Rng::stream(7, Stream::dart, i);
-    const double x = rng.uniform(-0.1, 1.1);
-    const double y = rng.uniform(-0.1, 1.1);
-    const double z = rng.uniform(-0.1, 1.1);
-    points.push_back(box.low + Vec3(x, y, z) * box.size());
-  }
-  return points;
 }
 
 std::string problem_of(const Volume& volume) {
@@ -88,7 +42,7 @@ std::string problem_of(const Volume& volume) {
 }  // namespace
 
 TEST_CASE("volume: the counted size is the one in the textbook, tilted or not") {
-  for (const Known& known : known_volumes()) {
+  for (const KnownVolume& known : known_volumes()) {
     INFO(known.name);
     CHECK(is_near(volume_of(known.volume), known.cubic_metres, 0.003 * known.cubic_metres));
   }
@@ -121,7 +75,7 @@ TEST_CASE("volume: unions may be nested and a union without parts holds nothing"
 }
 
 TEST_CASE("volume: a point on the surface is inside, whatever the direction") {
-  for (const Vec3& direction : kDirections) {
+  for (const Vec3& direction : tilts()) {
     const Vec3 axis = glm::normalize(direction);
     const Vec3 side = any_perpendicular(axis);
     for (const Shape shape : {Shape::cylinder, Shape::cone, Shape::hemisphere, Shape::sphere_portion}) {
@@ -141,7 +95,7 @@ TEST_CASE("volume: a point on the surface is inside, whatever the direction") {
 }
 
 TEST_CASE("volume: the box holds all of the volume and is tight around it, tilted or not") {
-  for (const Known& known : known_volumes()) {
+  for (const KnownVolume& known : known_volumes()) {
     INFO(known.name);
     const Box box = bounds(known.volume);
     Box met;
@@ -151,7 +105,9 @@ TEST_CASE("volume: the box holds all of the volume and is tight around it, tilte
     for (int i = 0; i < 3; ++i) {
       CHECK(met.low[i] >= box.low[i] - 1e-9);
       CHECK(met.high[i] <= box.high[i] + 1e-9);
-      // Random points hardly ever meet the very tip of a cone.
+      // Nobody works out what a cut leaves of the box.
+      if (known.volume.shape == Shape::difference) continue;
+      // Random points hardly ever meet the very tip of a cone or spindle.
       CHECK(met.low[i] <= box.low[i] + 0.15 * box.size()[i]);
       CHECK(met.high[i] >= box.high[i] - 0.15 * box.size()[i]);
     }
@@ -163,7 +119,7 @@ TEST_CASE("volume: the box holds all of the volume and is tight around it, tilte
 }
 
 TEST_CASE("volume: what is said to be farther away is") {
-  for (const Known& known : known_volumes()) {
+  for (const KnownVolume& known : known_volumes()) {
     const Solid solid(known.volume);
     const std::vector<Vec3> points = points_around(known.volume, 300);
     for (const Vec3& from : points) {
@@ -178,9 +134,9 @@ TEST_CASE("volume: what is said to be farther away is") {
 }
 
 TEST_CASE("volume: a segment between two points of one convex part lies inside") {
-  std::vector<Known> family = known_volumes();
+  std::vector<KnownVolume> family = known_volumes();
   family.push_back({"two balls", two_balls(1.5), 0});
-  for (const Known& known : family) {
+  for (const KnownVolume& known : family) {
     const Solid solid(known.volume);
     const std::vector<Vec3> points = points_around(known.volume, 120);
     for (const Vec3& a : points) {
