@@ -23,14 +23,16 @@ struct Lists {
   std::vector<Item> items;
 };
 
-Lists list_items(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
+Lists list_items(const Plant& plant, const std::vector<double>& light, const std::vector<LightSum>& sums,
                  bool is_ranked_by_total) {
   const auto host_of = [&](const Axis& axis) { return plant.axis[axis.base]; };
   Lists lists;
   lists.first.assign(plant.axes.size() + 1, 0);
-  for (const Bud& bud : plant.buds) ++lists.first[bud.axis + 1];
+  for (const Bud& bud : plant.buds) {
+    if (!bud.is_dead()) ++lists.first[bud.axis + 1];
+  }
   for (std::size_t i = 1; i < plant.axes.size(); ++i) {
-    if (!plant.axes[i].is_shed) ++lists.first[host_of(plant.axes[i]) + 1];
+    if (!plant.is_cut(plant.axes[i].first)) ++lists.first[host_of(plant.axes[i]) + 1];
   }
   std::partial_sum(lists.first.begin(), lists.first.end(), lists.first.begin());
 
@@ -38,13 +40,14 @@ Lists list_items(const Plant& plant, const std::vector<double>& light, const Lig
   std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
   for (std::uint32_t i = 0; i < plant.buds.size(); ++i) {
     const Bud& bud = plant.buds[i];
+    if (bud.is_dead()) continue;
     lists.items[next[bud.axis]++] = {light[i], light[i], bud.node, i, false, bud.is_terminal};
   }
   for (std::uint32_t i = 1; i < plant.axes.size(); ++i) {
     const Axis& axis = plant.axes[i];
-    if (axis.is_shed) continue;
-    const double total = sums.total(axis.first);
-    const std::uint32_t buds = sums.buds[axis.first];
+    if (plant.is_cut(axis.first)) continue;
+    const double total = sums[axis.first].total();
+    const std::uint32_t buds = sums[axis.first].buds;
     const double mean = buds > 0 ? total / buds : 0.0;
     lists.items[next[host_of(axis)]++] = {total, is_ranked_by_total ? total : mean, axis.base, i, true,
                                           false};
@@ -60,12 +63,13 @@ double priority_weight(std::size_t i, std::size_t n, double w_max, double w_min,
   return place < range ? w_max - (w_max - w_min) * place / range : w_min;
 }
 
-void allocate_priority(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
-                       const Parameters& parameters, int step, std::vector<double>& vigour) {
-  const double w_max = parameters.w_max.at(step);
-  const double w_min = parameters.w_min.at(step);
-  const double kappa = parameters.kappa.at(step);
-  const bool is_terminal_first = step <= parameters.terminal_first_until;
+void allocate_priority(const Plant& plant, const std::vector<double>& light,
+                       const std::vector<LightSum>& sums, const TreeParameters& tree, int step,
+                       std::vector<double>& vigour) {
+  const double w_max = tree.w_max.at(step);
+  const double w_min = tree.w_min.at(step);
+  const double kappa = tree.kappa.at(step);
+  const bool is_terminal_first = step <= tree.terminal_first_until;
   const auto goes_before = [&](const Item& a, const Item& b) {
     if (is_terminal_first && a.is_terminal != b.is_terminal) return a.is_terminal;
     if (a.rank != b.rank) return a.rank > b.rank;
@@ -74,10 +78,10 @@ void allocate_priority(const Plant& plant, const std::vector<double>& light, con
     return a.is_axis != b.is_axis ? b.is_axis : a.index < b.index;
   };
 
-  const bool is_ranked_by_total = !is_terminal_first && parameters.sort_after == SortAfter::total;
+  const bool is_ranked_by_total = !is_terminal_first && tree.sort_after == SortAfter::total;
   Lists lists = list_items(plant, light, sums, is_ranked_by_total);
   std::vector<double> axis_vigour(plant.axes.size(), 0.0);
-  axis_vigour[0] = root_vigour(sums, parameters, step);
+  axis_vigour[0] = root_vigour(sums, tree, step);
   vigour.assign(plant.buds.size(), 0.0);
   std::vector<double> demand;
   for (std::size_t axis = 0; axis < plant.axes.size(); ++axis) {

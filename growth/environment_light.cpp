@@ -10,59 +10,112 @@ namespace {
 // Centres on the very edge of the cone belong to it, whichever way rounding goes.
 constexpr double kConeSlack = 1e-9;
 
+constexpr std::size_t kBudsPerTask = 4096;
+
 }  // namespace
 
-void sense_light(const Plant& plant, const Parameters& parameters, const ShadowGrid& shadow, int step,
-                 std::vector<double>& light) {
-  const double full = parameters.C.at(step);
+void sense_light(const Plant& plant, const Parameters& world, const TreeParameters& tree,
+                 const LightField& field, int step, std::vector<double>& light) {
+  const double full = tree.C.at(step);
+  const ShadowGrid& grid = field.grid();
+  const auto additive = [&](const Bud& bud) {
+    const bool casts_itself = world.casters == Casters::buds ||
+                              (bud.node != 0 && has_leaves(world, plant.birth_step[bud.node], step));
+    const Shadow others = grid.at(bud.site) - (casts_itself ? grid.own_shadow() : 0);
+    return std::max(full - others * kShadowUnit, 0.0);
+  };
+  const auto multiplicative = [&](const Bud& bud) { return full * field.light(plant.position[bud.node]); };
+
   light.resize(plant.buds.size());
-  parallel_for(plant.buds.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t node = plant.buds[i].node;
-      const bool casts_itself = parameters.casters == Casters::buds || node != 0;
-      const Shadow others =
-          shadow.at(shadow.voxel_of(plant.position[node])) - (casts_itself ? shadow.own_shadow() : 0);
-      light[i] = std::max(full - others * kShadowUnit, 0.0);
-    }
-  });
+  const auto sense = [&](const auto& exposure) {
+    parallel_for(plant.buds.size(), kBudsPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        light[i] = plant.buds[i].is_dead() ? 0.0 : exposure(plant.buds[i]);
+      }
+    });
+  };
+  world.shadow == ShadowModel::additive ? sense(additive) : sense(multiplicative);
 }
 
-LightSeeker::LightSeeker(const Parameters& parameters, const ShadowGrid& shadow, int step)
-    : shadow_(shadow),
-      radius_((parameters.r.at(step) + kConeSlack) * shadow.voxel_size()),
-      min_cosine_(std::cos(radians(parameters.theta_deg.at(step) / 2.0)) - kConeSlack),
-      // The apex may be half a voxel off the middle of its own.
-      reach_(static_cast<int>(std::floor(parameters.r.at(step) + 0.5))),
-      tie_(parameters.tie) {}
+LightSeeker::LightSeeker(const TreeParameters& tree, const LightField& field, int step)
+    : field_(field),
+      from_(tree.optimal_from),
+      radius_(tree.r.at(step) + kConeSlack),
+      min_cosine_(std::cos(radians(tree.theta_deg.at(step) / 2.0)) - kConeSlack),
+      sine_(std::sin(radians(tree.theta_deg.at(step) / 2.0))),
+      tie_(tree.tie),
+      probe_radius_(tree.probe_radius.at(step)),
+      gradient_max_(tree.gradient_max.at(step)) {}
 
 Vec3 LightSeeker::best_direction(const Vec3& apex, const Vec3& axis) const {
-  const int edge = 2 * reach_ + 1;
-  thread_local std::vector<Shadow> values;
-  values.resize(static_cast<std::size_t>(edge * edge * edge));
-  const Coord own = shadow_.voxel_of(apex);
-  const Coord low = own - reach_;
-  shadow_.gather(low, edge, values);
+  return from_ == OptimalFrom::gradient ? gradient(apex) : darkest_free(apex, axis);
+}
 
-  Shadow least = std::numeric_limits<Shadow>::max();
-  Vec3 sum(0.0);
-  const Shadow* value = values.data();
-  for (int x = low.x; x < low.x + edge; ++x) {
-    for (int y = low.y; y < low.y + edge; ++y) {
-      for (int z = low.z; z < low.z + edge; ++z) {
-        const Shadow s = *value++;
-        if (s > least || Coord(x, y, z) == own) continue;
-        const Vec3 towards = Vec3(x, y, z) * shadow_.voxel_size() - apex;
-        const double distance = glm::length(towards);
-        if (distance > radius_ || glm::dot(towards, axis) < min_cosine_ * distance) continue;
-        if (s < least) {
-          least = s;
-          sum = Vec3(0.0);
-        } else if (tie_ == Tie::first) {
-          continue;
-        }
-        sum += towards / distance;
+Vec3 LightSeeker::gradient(const Vec3& apex) const {
+  const Vec3 slope = field_.slope(apex, probe_radius_);
+  const double length = glm::length(slope);
+  return length > gradient_max_ ? slope * (gradient_max_ / length) : slope;
+}
+
+bool LightSeeker::is_in_cone(double square, double along) const {
+  const bool is_wide = min_cosine_ < 0.0;
+  const bool is_near_axis = (along * along >= min_cosine_ * min_cosine_ * square) != is_wide;
+  return (square <= radius_ * radius_) &
+         (is_wide ? (along >= 0.0) | is_near_axis : (along >= 0.0) & is_near_axis);
+}
+
+/// The mean direction of the least shaded voxels whose centres lie within the cone, but for the voxel of
+/// `apex` itself; `axis` where there are none or they cancel out. In units of voxels.
+Vec3 LightSeeker::darkest_free(const Vec3& apex, const Vec3& axis) const {
+  const Vec3 place = apex / field_.grid().voxel_size();
+  const Coord own = field_.grid().voxel_of(apex);
+  // The box around the cone and the ball's cap that closes it.
+  Coord low;
+  Coord high;
+  for (int i = 0; i < 3; ++i) {
+    const double sine = std::sqrt(std::max(0.0, 1.0 - axis[i] * axis[i]));
+    const double turned = sine_ * sine;
+    const double farthest = axis[i] >= min_cosine_ ? 1.0 : min_cosine_ * axis[i] + turned;
+    const double nearest = -axis[i] >= min_cosine_ ? -1.0 : min_cosine_ * axis[i] - turned;
+    low[i] = static_cast<int>(std::ceil(place[i] + radius_ * std::min(nearest, 0.0) - kConeSlack));
+    high[i] = static_cast<int>(std::floor(place[i] + radius_ * std::max(farthest, 0.0) + kConeSlack));
+  }
+
+  // Gathered without a branch on each voxel: whether it is in the cone is hard to foretell.
+  thread_local std::vector<Coord> in_cone;
+  const Coord size = glm::max(high - low + 1, Coord(0));
+  in_cone.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                     static_cast<std::size_t>(size.z) +
+                 1);
+  std::size_t count = 0;
+  for (int x = low.x; x <= high.x; ++x) {
+    const double dx = x - place.x;
+    for (int y = low.y; y <= high.y; ++y) {
+      const double dy = y - place.y;
+      const double square_xy = dx * dx + dy * dy;
+      const double along_xy = dx * axis.x + dy * axis.y;
+      for (int z = low.z; z <= high.z; ++z) {
+        const double dz = z - place.z;
+        in_cone[count] = {x, y, z};
+        count += is_in_cone(square_xy + dz * dz, along_xy + dz * axis.z);
       }
     }
+  }
+
+  LeafReader reader = field_.grid().reader();
+  Shadow least = std::numeric_limits<Shadow>::max();
+  Vec3 sum(0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Coord& voxel = in_cone[i];
+    const Shadow shade = field_.shade(voxel, reader.at(voxel));
+    if (shade > least || voxel == own) continue;
+    if (shade < least) {
+      least = shade;
+      sum = Vec3(0.0);
+    } else if (tie_ == Tie::first) {
+      continue;
+    }
+    sum += glm::normalize(Vec3(voxel) - place);
   }
   return normalized_or(sum, axis);
 }

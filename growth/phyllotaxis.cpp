@@ -5,40 +5,79 @@
 namespace ramify::growth {
 namespace {
 
-// 360 degrees / golden ratio^2: the divergence of most spiral shoots.
-const double kGoldenAngle = radians(137.5);
-
 // Turning about world Z does nothing to a shoot that points along it.
 const double kNearlyAlongZ = std::cos(radians(10.0));
 
-Vec3 spiral_direction(const Axis& axis, std::uint32_t rank, double angle) {
-  const double azimuth = kGoldenAngle * rank;
+constexpr double kHalfTurn = std::numbers::pi;
+
+Vec3 direction_at(const Frame& frame, double azimuth, double angle) {
   const Vec3 outwards =
-      axis.reference * std::cos(azimuth) + glm::cross(axis.direction, axis.reference) * std::sin(azimuth);
-  return glm::normalize(axis.direction * std::cos(angle) + outwards * std::sin(angle));
+      frame.reference * std::cos(azimuth) + glm::cross(frame.direction, frame.reference) * std::sin(azimuth);
+  return glm::normalize(frame.direction * std::cos(angle) + outwards * std::sin(angle));
 }
 
 /// S4: the axis's direction turned left or right in the XY plane, a fair coin.
-Vec3 planar_direction(const Axis& axis, Rng random, double angle) {
+Vec3 planar_direction(const Frame& frame, Rng& random, double angle) {
   const double turn = random.coin() ? angle : -angle;
   const Vec3 z(0.0, 0.0, 1.0);
-  if (std::abs(glm::dot(axis.direction, z)) < kNearlyAlongZ) return rotated(axis.direction, z, turn);
-  const double azimuth = random.uniform(0.0, 2.0 * std::numbers::pi);
-  return rotated(axis.direction, perpendicular_at(axis.direction, azimuth), turn);
+  if (std::abs(glm::dot(frame.direction, z)) < kNearlyAlongZ) return rotated(frame.direction, z, turn);
+  const double azimuth = random.uniform(0.0, 2.0 * kHalfTurn);
+  return rotated(frame.direction, perpendicular_at(frame.direction, azimuth), turn);
+}
+
+/// Azimuth of the first bud of the rank-th node.
+double node_azimuth(const TreeParameters& tree, const BudAngles& angles, std::uint32_t rank) {
+  switch (tree.phyllotaxis) {
+    case Phyllotaxis::spiral:
+      return angles.divergence * rank;
+    case Phyllotaxis::alternate:
+      return kHalfTurn * rank;
+    case Phyllotaxis::opposite:
+    case Phyllotaxis::whorled:
+      // Each node's buds stand above the gaps of the node before.
+      return kHalfTurn / static_cast<double>(buds_per_node(tree)) * rank;
+    case Phyllotaxis::planar_random:
+      break;
+  }
+  return 0.0;
 }
 
 }  // namespace
 
-Vec3 axillary_direction(const Parameters& parameters, const Axis& axis, std::uint32_t axis_index,
-                        std::uint32_t rank, int step) {
-  const double angle = radians(parameters.branching_angle_deg.at(step));
-  switch (parameters.phyllotaxis) {
-    case Phyllotaxis::spiral:
-      return spiral_direction(axis, rank, angle);
-    case Phyllotaxis::planar_random:
-      return planar_direction(axis, Rng::stream(parameters.seed, Stream::bud, axis_index, rank), angle);
+BudAngles::BudAngles(const TreeParameters& tree, int step)
+    : branching(radians(tree.branching_angle_deg.at(step))),
+      divergence(radians(tree.divergence_deg.at(step))),
+      jitter(radians(tree.jitter_deg.at(step))) {}
+
+std::size_t buds_per_node(const TreeParameters& tree) {
+  switch (tree.phyllotaxis) {
+    case Phyllotaxis::opposite:
+      return 2;
+    case Phyllotaxis::whorled:
+      return static_cast<std::size_t>(tree.whorl_buds);
+    default:
+      return 1;
   }
-  return axis.direction;
+}
+
+void place_buds(const TreeParameters& tree, std::uint64_t seed, const BudAngles& angles, const Frame& frame,
+                std::uint32_t axis_id, std::uint32_t rank, std::span<Vec3f> directions) {
+  Rng random = Rng::stream(seed, Stream::bud, axis_id, rank);
+  const auto strayed = [&] {
+    return angles.jitter > 0.0 ? random.uniform(-angles.jitter, angles.jitter) : 0.0;
+  };
+  const double first_azimuth = node_azimuth(tree, angles, rank);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double angle = angles.branching + strayed();
+    if (tree.phyllotaxis == Phyllotaxis::planar_random) {
+      const Vec3 planar = planar_direction(frame, random, angle);
+      directions[i] = Vec3f(rotated(planar, frame.direction, strayed()));
+      continue;
+    }
+    const double share = static_cast<double>(i) / static_cast<double>(directions.size());
+    const double azimuth = first_azimuth + 2.0 * kHalfTurn * share + strayed();
+    directions[i] = Vec3f(direction_at(frame, azimuth, angle));
+  }
 }
 
 }  // namespace ramify::growth

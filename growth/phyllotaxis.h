@@ -1,13 +1,35 @@
-// Where the axillary bud of a node points.
+// Where the axillary buds of a node point.
 #pragma once
 
-#include "growth/plant.h"
+#include <cstdint>
+#include <span>
+
+#include "growth/parameters.h"
 
 namespace ramify::growth {
 
-/// The default direction of the bud on the rank-th node of axis number `axis_index`, `axis` being as it is at
-/// that node. The same for the same seed, axis and rank.
-Vec3 axillary_direction(const Parameters& parameters, const Axis& axis, std::uint32_t axis_index,
-                        std::uint32_t rank, int step);
+/// The tip of an axis: where it points, and a perpendicular to that from which azimuths are counted.
+struct Frame {
+  Vec3 direction = kUp;  // unit
+  Vec3 reference{1, 0, 0};
+};
+
+/// The numbers of a step that buds are placed by; radians.
+struct BudAngles {
+  BudAngles(const TreeParameters& tree, int step);
+
+  double branching;
+  double divergence;
+  double jitter;
+};
+
+/// Axillary buds of a node: 1, 2 or whorl_buds.
+std::size_t buds_per_node(const TreeParameters& tree);
+
+/// Sets `directions`, as many as buds_per_node(), to the default directions of the buds on the rank-th node
+/// of the axis named `axis_id`, `frame` being its tip at that node. The same for the same seed, axis and
+/// rank.
+void place_buds(const TreeParameters& tree, std::uint64_t seed, const BudAngles& angles, const Frame& frame,
+                std::uint32_t axis_id, std::uint32_t rank, std::span<Vec3f> directions);
 
 }  // namespace ramify::growth

@@ -3,183 +3,202 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "common/base/parallel.h"
 
 namespace ramify::growth {
 namespace {
 
-using Tree = openvdb::Int32Tree;
-using Leaf = Tree::LeafNodeType;
+using Leaf = openvdb::Int32Tree::LeafNodeType;
+static_assert(Leaf::DIM == kLeafEdge && Leaf::SIZE == kLeafSize);
 
-constexpr int kLeafEdge = Leaf::DIM;  // voxels
-constexpr int kLeafShift = Leaf::LOG2DIM;
-static_assert(kLeafEdge == 8);
+// Casters that are worth more than one thread.
+constexpr std::size_t kMinParallelCasters = 512;
 
-// The table takes 8 bytes a leaf of its box, in shadow or not: at most 32 MB. Beyond that leaves are looked
-// up in the tree.
-constexpr std::int64_t kMaxTableSize = 1 << 22;
+// Leaves of one x that the widest stencil falls in: q_max 32, sheared by the lowest sun.
+constexpr std::size_t kMaxWindow = 256;
 
-// Voxel indices stay where sums of a few of them cannot overflow.
-constexpr double kMaxIndex = 1 << 28;
+/// Casters that stand in one leaf.
+struct Group {
+  Coord leaf{0};
+  Coord low{0};  // box of the casters
+  Coord high{0};
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
 
-Coord leaf_of(const Coord& voxel) {
-  return {voxel.x >> kLeafShift, voxel.y >> kLeafShift, voxel.z >> kLeafShift};
+/// Casters sorted by leaf, and leaves by x: what is added one after the other lies near each other.
+struct Groups {
+  std::vector<Group> groups;
+  std::vector<Coord> casters;
+};
+
+Groups grouped(std::span<const Coord> casters, const std::vector<std::uint32_t>& leaf_of_caster,
+               std::uint32_t leaf_count) {
+  Groups result;
+  std::vector<std::uint32_t> group_of_leaf(leaf_count, 0);  // its place + 1
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    std::uint32_t& place = group_of_leaf[leaf_of_caster[i]];
+    if (place == 0) {
+      result.groups.push_back({leaf_of(casters[i]), casters[i], casters[i], leaf_of_caster[i], 0});
+      place = static_cast<std::uint32_t>(result.groups.size());
+    }
+    Group& group = result.groups[place - 1];
+    group.low = glm::min(group.low, casters[i]);
+    group.high = glm::max(group.high, casters[i]);
+    ++group.end;  // a count for now
+  }
+  std::stable_sort(result.groups.begin(), result.groups.end(),
+                   [](const Group& a, const Group& b) { return a.leaf.x < b.leaf.x; });
+  std::size_t next = 0;
+  for (std::uint32_t i = 0; i < result.groups.size(); ++i) {
+    Group& group = result.groups[i];
+    group_of_leaf[group.begin] = i;  // begin held the leaf's number
+    const std::size_t count = group.end;
+    group.begin = group.end = next;
+    next += count;
+  }
+  result.casters.resize(casters.size());
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    result.casters[result.groups[group_of_leaf[leaf_of_caster[i]]].end++] = casters[i];
+  }
+  return result;
 }
 
-std::size_t offset_in_leaf(const Coord& voxel) {
-  const int mask = kLeafEdge - 1;
-  return static_cast<std::size_t>(((voxel.x & mask) << (2 * kLeafShift)) + ((voxel.y & mask) << kLeafShift) +
-                                  (voxel.z & mask));
+/// The x of all leaves that shadows fall in, rising.
+std::vector<int> columns_of(const std::vector<Group>& groups, const ShadowStencil& stencil) {
+  std::vector<int> columns;
+  for (const Group& group : groups) {
+    const int last = leaf_of(group.high + stencil.high()).x;
+    for (int x = leaf_of(group.low + stencil.low()).x; x <= last; ++x) columns.push_back(x);
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  return columns;
 }
 
-openvdb::Coord leaf_origin(const Coord& leaf) {
-  return {leaf.x << kLeafShift, leaf.y << kLeafShift, leaf.z << kLeafShift};
+/// Eight voxels at once, each added to or taken from. Unsigned, so that a sum past the largest shadow wraps
+/// instead of being undefined; by way of copies, so that the compiler may do all eight together.
+template <bool is_cast>
+void add_edge(Shadow* values, const Shadow* amounts) {
+  std::array<std::uint32_t, kLeafEdge> sum;
+  std::array<std::uint32_t, kLeafEdge> amount;
+  std::memcpy(sum.data(), values, sizeof sum);
+  std::memcpy(amount.data(), amounts, sizeof amount);
+  for (std::size_t i = 0; i < kLeafEdge; ++i) sum[i] = is_cast ? sum[i] + amount[i] : sum[i] - amount[i];
+  std::memcpy(values, sum.data(), sizeof sum);
+}
+
+/// Adds what a caster's shadow has in the leaves of one x, or takes it away. All leaves must be there.
+template <bool is_cast>
+void add_slice(const ShadowStencil& stencil, const Coord& caster, int leaf_x, const LeafTable& leaves) {
+  const Coord low = leaf_of(caster + stencil.low());
+  const int last_y = leaf_of(caster + stencil.high()).y;
+  const int wide = stencil.leaves_wide();
+  std::array<Shadow*, kMaxWindow> window;
+  std::size_t count = 0;
+  for (int y = low.y; y <= last_y; ++y) {
+    for (int z = low.z; z < low.z + wide; ++z) window[count++] = leaves.buffer(leaves.find({leaf_x, y, z}));
+  }
+
+  const int place = caster.z & (kLeafEdge - 1);
+  const int low_x = leaf_x * kLeafEdge;
+  for (const ShadowStencil::Level& level : stencil.levels()) {
+    const int y = caster.y + level.y;
+    Shadow* const* buffers = window.data() + ((y >> kLeafShift) - low.y) * wide;
+    const int first_x = caster.x + level.first_x;
+    const int end_x = std::min(first_x + static_cast<int>(level.patterns.size()), low_x + kLeafEdge);
+    for (int x = std::max(first_x, low_x); x < end_x; ++x) {
+      const std::uint32_t offset = place_in_leaf({x, y, 0});
+      const Shadow* amounts = stencil.amounts(level.patterns[static_cast<std::size_t>(x - first_x)], place);
+      for (int z = 0; z < wide; ++z) add_edge<is_cast>(buffers[z] + offset, amounts + z * kLeafEdge);
+    }
+  }
 }
 
 }  // namespace
 
-struct ShadowGrid::Field {
-  Tree tree{0};
-  Coord low{0};  // the table's box, in leaves; empty at first
-  Coord size{0};
-  std::vector<Shadow*> table;  // buffers of leaves, nullptr where there is none
-
-  std::int64_t index_of(const Coord& leaf) const {
-    const Coord c = leaf - low;
-    const bool is_inside = c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < size.x && c.y < size.y && c.z < size.z;
-    return is_inside ? (static_cast<std::int64_t>(c.x) * size.y + c.y) * size.z + c.z : -1;
-  }
-
-  const Shadow* find(const Coord& leaf) const {
-    const std::int64_t index = index_of(leaf);
-    if (index >= 0) return table[static_cast<std::size_t>(index)];
-    const Leaf* found = tree.probeConstLeaf(leaf_origin(leaf));
-    return found ? found->buffer().data() : nullptr;
-  }
-
-  Shadow* touch(const Coord& leaf) {
-    const std::int64_t index = index_of(leaf);
-    if (index < 0) return tree.touchLeaf(leaf_origin(leaf))->buffer().data();
-    Shadow*& buffer = table[static_cast<std::size_t>(index)];
-    if (!buffer) buffer = tree.touchLeaf(leaf_origin(leaf))->buffer().data();
-    return buffer;
-  }
-
-  /// Widens the table to hold the leaves from `first` to `last`, with room for some more steps.
-  void reserve(const Coord& first, const Coord& last) {
-    if (index_of(first) >= 0 && index_of(last) >= 0) return;
-    const bool is_empty = table.empty();
-    const Coord tight_low = is_empty ? first : glm::min(low, first);
-    const Coord tight_size = (is_empty ? last : glm::max(low + size - 1, last)) - tight_low + 1;
-    const Coord margin = tight_size / 4 + 1;
-    const Coord new_low = tight_low - margin;
-    const Coord new_size = tight_size + 2 * margin;
-    const double volume = double(new_size.x) * double(new_size.y) * double(new_size.z);
-    if (volume > double(kMaxTableSize)) return;
-    low = new_low;
-    size = new_size;
-    table.assign(static_cast<std::size_t>(volume), nullptr);
-    for (auto leaf = tree.beginLeaf(); leaf; ++leaf) {
-      const openvdb::Coord origin = leaf->origin();
-      const std::int64_t index = index_of(leaf_of({origin.x(), origin.y(), origin.z()}));
-      if (index >= 0) table[static_cast<std::size_t>(index)] = leaf->buffer().data();
-    }
-  }
-
-  /// Adds `amount` to a run of voxels along z.
-  void add_row(const Coord& first, int length, Shadow amount) {
-    Coord voxel = first;
-    const int end = first.z + length;
-    while (voxel.z < end) {
-      const int stop = std::min(end, (voxel.z | (kLeafEdge - 1)) + 1);
-      Shadow* values = touch(leaf_of(voxel)) + offset_in_leaf(voxel);
-      for (int i = 0; i < stop - voxel.z; ++i) {
-        // Unsigned, so that a sum past the largest shadow wraps instead of being undefined.
-        values[i] =
-            static_cast<Shadow>(static_cast<std::uint32_t>(values[i]) + static_cast<std::uint32_t>(amount));
-      }
-      voxel.z = stop;
-    }
-  }
-
-  void read_row(const Coord& first, int length, Shadow* values) const {
-    Coord voxel = first;
-    const int end = first.z + length;
-    while (voxel.z < end) {
-      const int stop = std::min(end, (voxel.z | (kLeafEdge - 1)) + 1);
-      const Shadow* leaf = find(leaf_of(voxel));
-      if (leaf) {
-        std::copy_n(leaf + offset_in_leaf(voxel), stop - voxel.z, values);
-      } else {
-        std::fill_n(values, stop - voxel.z, Shadow{0});
-      }
-      values += stop - voxel.z;
-      voxel.z = stop;
-    }
-  }
+struct ShadowGrid::Tree {
+  openvdb::Int32Tree voxels{0};
 };
 
 ShadowGrid::ShadowGrid(const Penumbra& penumbra, double voxel_size)
-    : voxel_size_(voxel_size), field_(std::make_unique<Field>()) {
-  for (int q = 0; q <= penumbra.q_max; ++q) {
-    levels_.push_back(static_cast<Shadow>(std::lround(penumbra.a * std::pow(penumbra.b, -q) / kShadowUnit)));
-  }
-}
+    : voxel_size_(voxel_size), stencil_(penumbra), tree_(std::make_unique<Tree>()) {}
 
 ShadowGrid::~ShadowGrid() = default;
 
-Coord ShadowGrid::voxel_of(const Vec3& point) const {
-  const Vec3 index = glm::floor(point / voxel_size_ + 0.5);
-  return Coord(glm::clamp(index, Vec3(-kMaxIndex), Vec3(kMaxIndex)));
+std::uint32_t ShadowGrid::touch(const Coord& leaf) {
+  const std::uint32_t number = leaves_.find(leaf);
+  if (number != 0) return number;
+  leaves_.reserve(leaf, leaf);
+  const openvdb::Coord origin(leaf.x * kLeafEdge, leaf.y * kLeafEdge, leaf.z * kLeafEdge);
+  return leaves_.add(leaf, tree_->voxels.touchLeaf(origin)->buffer().data());
+}
+
+void ShadowGrid::touch_all(const Coord& first, const Coord& last) {
+  for (int x = first.x; x <= last.x; ++x) {
+    for (int y = first.y; y <= last.y; ++y) {
+      for (int z = first.z; z <= last.z; ++z) touch({x, y, z});
+    }
+  }
 }
 
 void ShadowGrid::cast(std::span<const Coord> casters) {
-  add(casters, 1);
+  add<true>(casters);
 }
 
 void ShadowGrid::uncast(std::span<const Coord> casters) {
-  add(casters, -1);
+  add<false>(casters);
 }
 
-void ShadowGrid::add(std::span<const Coord> casters, Shadow sign) {
+template <bool is_cast>
+void ShadowGrid::add(std::span<const Coord> casters) {
   if (casters.empty()) return;
-  const int q_max = static_cast<int>(levels_.size()) - 1;
-  Coord low = casters.front();
-  Coord high = casters.front();
-  for (const Coord& caster : casters) {
-    low = glm::min(low, caster);
-    high = glm::max(high, caster);
+  std::vector<std::uint32_t> leaf_of_caster(casters.size());
+  for (std::size_t i = 0; i < casters.size(); ++i) leaf_of_caster[i] = touch(leaf_of(casters[i]));
+  const Groups groups = grouped(casters, leaf_of_caster, leaves_.count());
+  for (const Group& group : groups.groups) {
+    Coord last = leaf_of(group.high + stencil_.high());
+    last.z = leaf_of(group.high + stencil_.low()).z + stencil_.leaves_wide() - 1;
+    touch_all(leaf_of(group.low + stencil_.low()), last);
   }
-  field_->reserve(leaf_of(low - q_max), leaf_of(high + q_max));
 
-  for (const Coord& caster : casters) {
-    for (int q = 0; q <= q_max; ++q) {
-      const Shadow amount = sign * levels_[static_cast<std::size_t>(q)];
-      for (int i = -q; i <= q; ++i) {
-        field_->add_row({caster.x + i, caster.y - q, caster.z - q}, 2 * q + 1, amount);
+  // Each thread has columns of leaves of its own: no two write to one voxel.
+  const std::vector<int> columns = columns_of(groups.groups, stencil_);
+  const std::size_t grain = casters.size() < kMinParallelCasters ? columns.size() : 1;
+  parallel_for(columns.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const int x = columns[i] * kLeafEdge;
+      const int first_leaf = leaf_of(Coord(x) - stencil_.high()).x;
+      const int last_leaf = leaf_of(Coord(x + kLeafEdge - 1) - stencil_.low()).x;
+      auto group = std::lower_bound(groups.groups.begin(), groups.groups.end(), first_leaf,
+                                    [](const Group& g, int leaf_x) { return g.leaf.x < leaf_x; });
+      for (; group != groups.groups.end() && group->leaf.x <= last_leaf; ++group) {
+        for (std::size_t j = group->begin; j < group->end; ++j) {
+          const Coord& caster = groups.casters[j];
+          const bool is_reached =
+              caster.x + stencil_.low().x < x + kLeafEdge && caster.x + stencil_.high().x >= x;
+          if (is_reached) add_slice<is_cast>(stencil_, caster, columns[i], leaves_);
+        }
       }
     }
-  }
+  });
 }
 
-Shadow ShadowGrid::at(const Coord& voxel) const {
-  const Shadow* leaf = field_->find(leaf_of(voxel));
-  return leaf ? leaf[offset_in_leaf(voxel)] : 0;
+void ShadowGrid::darken(std::span<const Coord> voxels, Shadow amount) {
+  for (const Coord& voxel : voxels) leaves_.buffer(touch(leaf_of(voxel)))[place_in_leaf(voxel)] += amount;
 }
 
-void ShadowGrid::gather(const Coord& low, int edge, std::span<Shadow> values) const {
-  Shadow* row = values.data();
-  for (int i = 0; i < edge; ++i) {
-    for (int j = 0; j < edge; ++j) {
-      field_->read_row({low.x + i, low.y + j, low.z}, edge, row);
-      row += edge;
-    }
-  }
+Site ShadowGrid::site_of(const Coord& voxel) {
+  return touch(leaf_of(voxel)) * kLeafSize + place_in_leaf(voxel);
 }
 
 VoxelLayer ShadowGrid::layer() const {
   VoxelLayer layer;
   layer.voxel_size = voxel_size_;
-  for (auto leaf = field_->tree.cbeginLeaf(); leaf; ++leaf) {
+  for (auto leaf = tree_->voxels.cbeginLeaf(); leaf; ++leaf) {
     const Shadow* values = leaf->buffer().data();
     for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
       if (values[i] == 0) continue;

@@ -3,26 +3,17 @@
 // shadow away leaves nothing of it.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "common/base/geometry.h"
 #include "common/config/layer.h"
+#include "growth/leaf_table.h"
+#include "growth/shadow_stencil.h"
 
 namespace ramify::growth {
 
-struct Penumbra {
-  double a = 0.2;  // shadow in the caster's own voxel
-  double b = 2.0;  // level q below it gets a * b^-q
-  int q_max = 4;   // the last level; level q is 2q + 1 voxels wide
-};
-
-/// Shadow in units of 2^-16.
-using Shadow = std::int32_t;
-inline constexpr double kShadowUnit = 1.0 / 65536.0;
-
+/// Additive shadow is taken from the light; multiplicative shadow s leaves exp(-s) of it.
 class ShadowGrid {
  public:
   /// `voxel_size` in metres.
@@ -32,33 +23,51 @@ class ShadowGrid {
   double voxel_size() const { return voxel_size_; }
 
   /// The voxel that holds `point`; its centre is voxel_size * (i, j, k), so the root is in the middle of one.
-  Coord voxel_of(const Vec3& point) const;
+  Coord voxel_of(const Vec3& point) const {
+    // Indices stay where sums of a few of them cannot overflow.
+    constexpr double kMaxIndex = 1 << 28;
+    const Vec3 index = glm::floor(point / voxel_size_ + 0.5);
+    return Coord(glm::clamp(index, Vec3(-kMaxIndex), Vec3(kMaxIndex)));
+  }
 
-  /// Adds the pyramids of casters standing in these voxels; a voxel may be named more than once.
+  /// Adds the shadows of casters standing in these voxels; a voxel may be named more than once. O(casters),
+  /// on all threads.
   void cast(std::span<const Coord> casters);
 
   /// Takes them away again.
   void uncast(std::span<const Coord> casters);
 
-  Shadow at(const Coord& voxel) const;
+  /// Adds `amount` to each of these voxels and to no other.
+  void darken(std::span<const Coord> voxels, Shadow amount);
 
-  /// The cube of edge^3 voxels from `low` on, z fastest; `values` has room for them.
-  void gather(const Coord& low, int edge, std::span<Shadow> values) const;
+  Shadow at(const Coord& voxel) const {
+    const std::uint32_t leaf = leaves_.find(leaf_of(voxel));
+    return leaf == 0 ? 0 : leaves_.buffer(leaf)[place_in_leaf(voxel)];
+  }
+  Shadow at(Site site) const { return leaves_.at(site); }
+  LeafReader reader() const { return LeafReader(leaves_); }
+
+  /// For quick reading: valid as long as the grid.
+  Site site_of(const Coord& voxel);
 
   /// What a caster adds to its own voxel.
-  Shadow own_shadow() const { return levels_.front(); }
+  Shadow own_shadow() const { return stencil_.own_shadow(); }
 
   /// All voxels in shadow, as shadow values.
   VoxelLayer layer() const;
 
  private:
-  struct Field;  // the OpenVDB tree and a dense table of its leaves
+  struct Tree;
 
-  void add(std::span<const Coord> casters, Shadow sign);
+  std::uint32_t touch(const Coord& leaf);
+  void touch_all(const Coord& first, const Coord& last);
+  template <bool is_cast>
+  void add(std::span<const Coord> casters);
 
   double voxel_size_;
-  std::vector<Shadow> levels_;  // what a caster adds on each level, rounded once
-  std::unique_ptr<Field> field_;
+  ShadowStencil stencil_;
+  std::unique_ptr<Tree> tree_;
+  LeafTable leaves_;  // of the tree
 };
 
 }  // namespace ramify::growth

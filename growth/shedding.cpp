@@ -1,45 +1,40 @@
 #include "growth/shedding.h"
 
-#include <algorithm>
-
 namespace ramify::growth {
+namespace {
 
-std::vector<std::uint32_t> shaded_axes(const Plant& plant, const LightSums& sums,
-                                       const Parameters& parameters, int step) {
-  const double threshold = parameters.shed_threshold.at(step);
+/// 0: nothing is shed this way in this step.
+double threshold_of(ShedBy way, const TreeParameters& tree, int step) {
+  return tree.shed_by == way && step > tree.shed_after ? tree.shed_threshold.at(step) : 0.0;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> shaded_axes(const Plant& plant, const std::vector<LightSum>& sums,
+                                       const TreeParameters& tree, int step) {
+  const double threshold = threshold_of(ShedBy::light, tree, step);
   std::vector<std::uint32_t> shaded;
-  if (threshold <= 0.0 || step <= parameters.shed_after) return shaded;
-  for (std::uint32_t i = 1; i < plant.axes.size(); ++i) {
-    const Axis& axis = plant.axes[i];
-    if (axis.is_shed) continue;
-    if (sums.total(axis.first) < threshold * sums.internodes[axis.first]) shaded.push_back(i);
+  if (threshold <= 0.0) return shaded;
+  for (std::size_t i = 1; i < plant.axes.size(); ++i) {
+    const std::uint32_t first = plant.axes[i].first;
+    if (plant.is_cut(first)) continue;
+    if (sums[first].total() < threshold * sums[first].internodes) shaded.push_back(first);
   }
   return shaded;
 }
 
-std::vector<Coord> shed_axes(Plant& plant, const std::vector<std::uint32_t>& axes,
-                             const Parameters& parameters, const ShadowGrid& shadow, int step) {
-  std::vector<Coord> freed;
-  if (axes.empty()) return freed;
-  for (const std::uint32_t axis : axes) plant.axes[axis].is_shed = true;
-  // An axis comes after the one it grows from, so one pass forward takes all axes along.
-  for (std::size_t i = 1; i < plant.axes.size(); ++i) {
-    if (plant.axes[plant.axis[plant.axes[i].base]].is_shed) plant.axes[i].is_shed = true;
+std::vector<std::uint32_t> starved_internodes(const Plant& plant, const std::vector<LightSum>& sums,
+                                              const std::vector<double>& vigour, const TreeParameters& tree,
+                                              int step) {
+  const double threshold = threshold_of(ShedBy::vigour, tree, step);
+  std::vector<std::uint32_t> starved;
+  if (threshold <= 0.0) return starved;
+  const std::vector<double> received = subtree_sums(plant, vigour);
+  for (std::uint32_t node = 1; node < plant.node_count(); ++node) {
+    if (plant.is_cut(node)) continue;
+    if (received[node] < threshold * sums[node].internodes) starved.push_back(node);
   }
-
-  for (std::size_t node = 1; node < plant.node_count(); ++node) {
-    if (plant.shed_step[node] != kAlive || !plant.axes[plant.axis[node]].is_shed) continue;
-    plant.shed_step[node] = static_cast<std::uint32_t>(step);
-    if (parameters.casters == Casters::metamers) freed.push_back(shadow.voxel_of(plant.position[node]));
-  }
-  const auto is_shed = [&](const Bud& bud) { return plant.axes[bud.axis].is_shed; };
-  if (parameters.casters == Casters::buds) {
-    for (const Bud& bud : plant.buds) {
-      if (is_shed(bud)) freed.push_back(shadow.voxel_of(plant.position[bud.node]));
-    }
-  }
-  plant.buds.erase(std::remove_if(plant.buds.begin(), plant.buds.end(), is_shed), plant.buds.end());
-  return freed;
+  return starved;
 }
 
 }  // namespace ramify::growth

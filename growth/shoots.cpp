@@ -4,7 +4,6 @@
 
 #include "common/base/parallel.h"
 #include "common/base/rng.h"
-#include "growth/environment_light.h"
 #include "growth/phyllotaxis.h"
 
 namespace ramify::growth {
@@ -12,6 +11,8 @@ namespace {
 
 // v is a sum of many shares: one that rounding left a hair below a whole number counts as that number.
 constexpr double kVigourSlack = 1e-9;
+
+constexpr std::size_t kShootsPerTask = 64;
 
 /// A bud's v after the cap, or 0 where it rests.
 double capped_vigour(double vigour, double cap) {
@@ -23,185 +24,173 @@ double metamer_count(double capped) {
   return std::floor(capped + kVigourSlack);
 }
 
-/// What one bud will make, and where in `Traces` it is traced.
-struct Shoot {
-  std::uint32_t bud = 0;
-  std::uint32_t planned = 0;  // metamers
-  std::uint32_t made = 0;     // fewer where the ground is in the way
-  double metamer_length = 0.0;
-  std::size_t first = 0;
+/// A tropism as it is in one step.
+struct Pull {
+  double weight;
+  Towards towards;
+  Vec3 direction;  // unit
+  int min_order;
+  int max_order;
+
+  Vec3 on(const Vec3& axis) const {
+    if (towards == Towards::direction) return weight * direction;
+    return weight * normalized_or(Vec3(axis.x, 0.0, axis.z), Vec3(0.0));
+  }
 };
 
-/// Upper ends and unit directions of the metamers of all shoots.
-struct Traces {
-  std::vector<Vec3> position;
-  std::vector<Vec3> direction;
-};
-
-std::vector<Shoot> plan_shoots(const std::vector<double>& vigour, const Parameters& parameters, int step) {
-  const double cap = parameters.max_metamers.at(step);
-  const double length = parameters.internode_length.at(step);
-  std::vector<Shoot> shoots;
-  std::size_t metamers = 0;
-  for (std::uint32_t bud = 0; bud < vigour.size(); ++bud) {
-    const double capped = capped_vigour(vigour[bud], cap);
-    const double count = metamer_count(capped);
-    if (count < 1.0) continue;
-    Shoot shoot;
-    shoot.bud = bud;
-    shoot.planned = static_cast<std::uint32_t>(count);
-    shoot.metamer_length = length * capped / count;
-    shoot.first = metamers;
-    metamers += shoot.planned;
-    shoots.push_back(shoot);
+std::vector<Pull> pulls_of(const TreeParameters& tree, int step) {
+  std::vector<Pull> pulls;
+  for (const auto& [name, tropism] : tree.tropism) {
+    pulls.push_back({tropism.weight.at(step), tropism.towards, glm::normalize(tropism.direction),
+                     tropism.min_order, tropism.max_order});
   }
-  return shoots;
+  return pulls;
 }
 
-Vec3 tropism_sum(const Parameters& parameters, int step) {
-  Vec3 sum(0.0);
-  for (const auto& [name, tropism] : parameters.tropism) {
-    sum += tropism.weight.at(step) * glm::normalize(tropism.direction);
-  }
-  return sum;
+/// `axis` turned by this share of the angle towards `pull`.
+Vec3 turned_towards(const Vec3& axis, const Vec3& pull, double share) {
+  const Vec3 normal = glm::cross(axis, pull);
+  const double sine = glm::length(normal);
+  if (sine < 1e-12) return axis;
+  return glm::normalize(rotated(axis, normal / sine, share * std::atan2(sine, glm::dot(axis, pull))));
 }
 
-/// Follows one shoot through the light: P09 4.3's weighted sum of default, optimal and tropism direction.
-void trace_shoot(Shoot& shoot, const Plant& plant, const Parameters& parameters, const LightSeeker& seeker,
-                 int step, Traces& traces) {
-  const double w_default = parameters.w_default.at(step);
-  const double w_optimal = parameters.w_optimal.at(step);
-  const Vec3 tropism = tropism_sum(parameters, step);
-  const Bud& bud = plant.buds[shoot.bud];
-  Vec3 direction = bud.is_terminal ? plant.axes[bud.axis].direction : bud.direction;
-  Vec3 apex = plant.position[bud.node];
-  for (; shoot.made < shoot.planned; ++shoot.made) {
-    Vec3 sum = w_default * direction + tropism;
-    if (w_optimal > 0.0) sum += w_optimal * seeker.best_direction(apex, direction);
-    direction = normalized_or(sum, direction);
-    apex += direction * shoot.metamer_length;
-    if (parameters.ground && apex.y < parameters.ground_y) return;
-    traces.position[shoot.first + shoot.made] = apex;
-    traces.direction[shoot.first + shoot.made] = direction;
-  }
-}
-
-/// Adds traced shoots to the plant, bud by bud.
-class ShootBuilder {
+/// Traces shoots with the numbers of one step.
+class Tracer {
  public:
-  ShootBuilder(Plant& plant, const Parameters& parameters, const ShadowGrid& shadow, int step)
-      : plant_(plant), parameters_(parameters), shadow_(shadow), step_(step) {}
+  Tracer(const Plant& plant, const Guides& guides, int step)
+      : plant_(plant),
+        guides_(guides),
+        seeker_(guides.tree, guides.light, step),
+        angles_(guides.tree, step),
+        pulls_(pulls_of(guides.tree, step)),
+        w_default_(guides.tree.w_default.at(step)),
+        w_optimal_(guides.tree.w_optimal.at(step)),
+        turn_max_(guides.tree.turn_max.at(step)) {}
 
-  void keep(const Bud& bud) { buds_.push_back(bud); }
-
-  void build(const Bud& bud, const Shoot& shoot, const Traces& traces) {
-    if (parameters_.casters == Casters::buds) changes_.removed.push_back(voxel_of(bud.node));
-    // Blocked at once: its light would draw resource for ever, so it dies.
-    if (shoot.made == 0) return;
-
-    // The node that a terminal bud leaves behind may get its axillary bud only now.
-    if (bud.is_terminal && parameters_.tip_bud == TipBud::terminal) add_axillary_bud(bud.node, bud.axis);
-    const std::uint32_t axis = bud.is_terminal ? bud.axis : found_axis(bud);
-    std::uint32_t node = bud.node;
-    for (std::uint32_t i = 0; i < shoot.made; ++i) {
-      node = add_node(axis, node, traces.position[shoot.first + i], traces.direction[shoot.first + i]);
-      const bool is_last = i + 1 == shoot.made;
-      if (!is_last || parameters_.tip_bud == TipBud::both) add_axillary_bud(node, axis);
+  void trace(Shoot& shoot, Traces& traces) const {
+    const Bud& bud = plant_.buds[shoot.bud];
+    const Axis& axis = plant_.axes[bud.axis];
+    const int order = axis.order + (bud.is_terminal ? 0 : 1);
+    std::uint32_t rank = bud.is_terminal ? axis.node_count - 1 : kNone;  // of a new axis the next is 0
+    Frame frame{Vec3(bud.direction), Vec3(axis.reference)};
+    if (!bud.is_terminal) frame.reference = first_reference(shoot.axis_id, frame.direction);
+    Vec3 apex = plant_.position[bud.node];
+    set_node(traces, shoot.first, apex);
+    if (bud.is_terminal && guides_.tree.tip_bud == TipBud::terminal) {
+      set_buds(traces, shoot.first, frame, shoot.axis_id, rank);
     }
-    add_bud({.node = node, .axis = axis, .is_terminal = true, .direction = plant_.axes[axis].direction});
-  }
-
-  CasterChanges finish() {
-    plant_.buds = std::move(buds_);
-    return std::move(changes_);
+    Vec3 optimal = optimal_at(shoot.bud, apex, frame.direction);
+    for (; shoot.made < shoot.planned; ++shoot.made) {
+      if (guides_.tree.v_per == OptimalPer::metamer && shoot.made > 0) {
+        optimal = optimal_at(shoot.bud, apex, frame.direction);
+      }
+      const Vec3 direction = next_direction(frame.direction, optimal + tropisms(frame.direction, order));
+      const Vec3 next = apex + direction * shoot.metamer_length;
+      if (guides_.barriers.block(apex, next)) break;
+      frame = {direction, transported(frame.reference, frame.direction, direction)};
+      apex = next;
+      const std::size_t slot = shoot.first + shoot.made + 1;
+      set_node(traces, slot, apex);
+      set_buds(traces, slot, frame, shoot.axis_id, ++rank);
+    }
+    shoot.end_direction = Vec3f(frame.direction);
+    shoot.end_reference = Vec3f(frame.reference);
   }
 
  private:
-  Coord voxel_of(std::uint32_t node) const { return shadow_.voxel_of(plant_.position[node]); }
-
-  std::uint32_t found_axis(const Bud& bud) {
-    const auto index = static_cast<std::uint32_t>(plant_.axes.size());
-    Axis axis;
-    axis.base = bud.node;
-    axis.first = static_cast<std::uint32_t>(plant_.node_count());
-    axis.birth_step = static_cast<std::uint32_t>(step_);
-    axis.order = static_cast<std::uint16_t>(plant_.axes[bud.axis].order + 1);
-    axis.direction = bud.direction;
-    Rng random = Rng::stream(parameters_.seed, Stream::axis, index);
-    axis.reference = perpendicular_at(bud.direction, random.uniform(0.0, 2.0 * std::numbers::pi));
-    plant_.axes.push_back(axis);
-    return index;
+  Vec3 first_reference(std::uint32_t axis_id, const Vec3& direction) const {
+    Rng random = Rng::stream(guides_.seed, Stream::axis, axis_id);
+    return perpendicular_at(direction, random.uniform(0.0, 2.0 * std::numbers::pi));
   }
 
-  std::uint32_t add_node(std::uint32_t axis, std::uint32_t parent, const Vec3& position,
-                         const Vec3& direction) {
-    const auto node = static_cast<std::uint32_t>(plant_.node_count());
-    plant_.position.push_back(position);
-    plant_.parent.push_back(parent);
-    plant_.axis.push_back(axis);
-    plant_.birth_step.push_back(static_cast<std::uint32_t>(step_));
-    plant_.shed_step.push_back(kAlive);
-    Axis& extended = plant_.axes[axis];
-    extended.reference = transported(extended.reference, extended.direction, direction);
-    extended.direction = direction;
-    ++extended.node_count;
-    if (parameters_.casters == Casters::metamers) changes_.added.push_back(voxel_of(node));
-    return node;
+  void set_node(Traces& traces, std::size_t slot, const Vec3& position) const {
+    traces.position[slot] = position;
+    traces.voxel[slot] = guides_.light.grid().voxel_of(position);
   }
 
-  /// On the axis's last node so far.
-  void add_axillary_bud(std::uint32_t node, std::uint32_t axis) {
-    const Axis& bearer = plant_.axes[axis];
-    const std::uint32_t rank = bearer.node_count - 1;
-    add_bud({.node = node,
-             .axis = axis,
-             .is_terminal = false,
-             .direction = axillary_direction(parameters_, bearer, axis, rank, step_)});
+  void set_buds(Traces& traces, std::size_t slot, const Frame& frame, std::uint32_t axis_id,
+                std::uint32_t rank) const {
+    const std::span<Vec3f> directions(traces.axillary.data() + slot * traces.buds_per_node,
+                                      traces.buds_per_node);
+    place_buds(guides_.tree, guides_.seed, angles_, frame, axis_id, rank, directions);
   }
 
-  void add_bud(const Bud& bud) {
-    buds_.push_back(bud);
-    if (parameters_.casters == Casters::buds) changes_.added.push_back(voxel_of(bud.node));
+  Vec3 tropisms(const Vec3& axis, int order) const {
+    Vec3 sum(0.0);
+    for (const Pull& pull : pulls_) {
+      if (order >= pull.min_order && order <= pull.max_order) sum += pull.on(axis);
+    }
+    return sum;
   }
 
-  Plant& plant_;
-  const Parameters& parameters_;
-  const ShadowGrid& shadow_;
-  int step_;
-  std::vector<Bud> buds_;
-  CasterChanges changes_;
+  /// The weighted best direction.
+  Vec3 optimal_at(std::uint32_t bud, const Vec3& apex, const Vec3& axis) const {
+    if (w_optimal_ <= 0.0) return Vec3(0.0);
+    const bool is_light = guides_.world.environment == Environment::light;
+    return w_optimal_ * (is_light ? seeker_.best_direction(apex, axis) : Vec3(guides_.space[bud]));
+  }
+
+  Vec3 next_direction(const Vec3& axis, const Vec3& pull) const {
+    if (guides_.tree.combine == Combine::sum) return normalized_or(w_default_ * axis + pull, axis);
+    return turned_towards(axis, pull, std::min(glm::length(pull), turn_max_));
+  }
+
+  const Plant& plant_;
+  const Guides& guides_;
+  LightSeeker seeker_;
+  BudAngles angles_;
+  std::vector<Pull> pulls_;
+  double w_default_;
+  double w_optimal_;
+  double turn_max_;
 };
 
 }  // namespace
 
-double planned_metamers(const std::vector<double>& vigour, const Parameters& parameters, int step) {
-  const double cap = parameters.max_metamers.at(step);
+double planned_metamers(const std::vector<double>& vigour, const TreeParameters& tree, int step) {
+  const double cap = tree.max_metamers.at(step);
   double sum = 0.0;
   for (const double v : vigour) sum += metamer_count(capped_vigour(v, cap));
   return sum;
 }
 
-CasterChanges extend_shoots(Plant& plant, const std::vector<double>& vigour, const Parameters& parameters,
-                            const ShadowGrid& shadow, int step) {
-  std::vector<Shoot> shoots = plan_shoots(vigour, parameters, step);
-  const std::size_t metamers = shoots.empty() ? 0 : shoots.back().first + shoots.back().planned;
-  Traces traces{std::vector<Vec3>(metamers), std::vector<Vec3>(metamers)};
-  const LightSeeker seeker(parameters, shadow, step);
-  parallel_for(shoots.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) trace_shoot(shoots[i], plant, parameters, seeker, step, traces);
-  });
-
-  ShootBuilder builder(plant, parameters, shadow, step);
-  auto shoot = shoots.cbegin();
-  for (std::uint32_t i = 0; i < plant.buds.size(); ++i) {
-    const Bud bud = plant.buds[i];
-    if (shoot != shoots.cend() && shoot->bud == i) {
-      builder.build(bud, *shoot++, traces);
-    } else {
-      builder.keep(bud);
-    }
+std::vector<Shoot> plan_shoots(const Plant& plant, const std::vector<double>& vigour,
+                               const TreeParameters& tree, int step) {
+  const double cap = tree.max_metamers.at(step);
+  const double length = tree.internode_length.at(step);
+  std::uint32_t next_axis = plant.axes_founded;
+  std::size_t next_slot = 0;
+  std::vector<Shoot> shoots;
+  for (std::uint32_t i = 0; i < vigour.size(); ++i) {
+    const double capped = capped_vigour(vigour[i], cap);
+    const double count = metamer_count(capped);
+    if (count < 1.0 || plant.buds[i].is_dead()) continue;
+    Shoot shoot;
+    shoot.bud = i;
+    shoot.planned = static_cast<std::uint32_t>(count);
+    shoot.axis_id = plant.buds[i].is_terminal ? plant.axes[plant.buds[i].axis].id : next_axis++;
+    shoot.metamer_length = length * capped / count;
+    shoot.first = next_slot;
+    next_slot += shoot.planned + 1;
+    shoots.push_back(shoot);
   }
-  return builder.finish();
+  return shoots;
+}
+
+Traces trace_shoots(std::vector<Shoot>& shoots, const Plant& plant, const Guides& guides, int step) {
+  Traces traces;
+  if (shoots.empty()) return traces;
+  const std::size_t slots = shoots.back().first + shoots.back().planned + 1;
+  traces.buds_per_node = buds_per_node(guides.tree);
+  traces.position.resize(slots);
+  traces.voxel.resize(slots);
+  traces.axillary.resize(slots * traces.buds_per_node);
+  const Tracer tracer(plant, guides, step);
+  parallel_for(shoots.size(), kShootsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) tracer.trace(shoots[i], traces);
+  });
+  return traces;
 }
 
 }  // namespace ramify::growth

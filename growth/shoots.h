@@ -1,25 +1,55 @@
 // Shoots: what buds with enough resource grow in a step. Palubicki et al. 2009, 4.3.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "growth/barriers.h"
+#include "growth/environment_light.h"
 #include "growth/plant.h"
-#include "growth/shadow_grid.h"
 
 namespace ramify::growth {
 
-/// Voxels in which something begins or ceases to cast shadow.
-struct CasterChanges {
-  std::vector<Coord> added;
-  std::vector<Coord> removed;
+/// What one bud makes, and where in `Traces` it is traced.
+struct Shoot {
+  std::uint32_t bud = 0;
+  std::uint32_t planned = 0;  // metamers
+  std::uint32_t made = 0;     // fewer where something is in the way
+  std::uint32_t axis_id = 0;  // of the axis it continues or founds
+  double metamer_length = 0.0;
+  std::size_t first = 0;      // its start's slot; those of its metamers follow
+  Vec3f end_direction{0.0f};  // of its last metamer
+  Vec3f end_reference{0.0f};  // perpendicular to it
+};
+
+/// The nodes of all shoots, a slot each: first the node a shoot starts from, then the upper ends of its
+/// metamers.
+struct Traces {
+  std::size_t buds_per_node = 1;
+  std::vector<Vec3> position;
+  std::vector<Coord> voxel;     // light
+  std::vector<Vec3f> axillary;  // default directions of its axillary buds, buds_per_node a slot
 };
 
 /// How many metamers the buds will make with this vigour; a number that may be beyond all memory.
-double planned_metamers(const std::vector<double>& vigour, const Parameters& parameters, int step);
+double planned_metamers(const std::vector<double>& vigour, const TreeParameters& tree, int step);
 
-/// Grows a shoot from each bud with v >= 1, all in the light as it stands in `shadow`. The trunk's base must
-/// not be below ground. O(metamers made), on all threads.
-CasterChanges extend_shoots(Plant& plant, const std::vector<double>& vigour, const Parameters& parameters,
-                            const ShadowGrid& shadow, int step);
+/// One shoot for each bud with v >= 1, the axes of new ones named from plant.axes_founded on.
+std::vector<Shoot> plan_shoots(const Plant& plant, const std::vector<double>& vigour,
+                               const TreeParameters& tree, int step);
+
+/// What the shoots of a step are guided by.
+struct Guides {
+  const Parameters& world;
+  const TreeParameters& tree;
+  std::uint64_t seed = 1;  // the tree's
+  const Barriers& barriers;
+  const LightField& light;
+  const std::vector<Vec3f>& space;  // V of each bud; with environment = space only
+};
+
+/// Follows each shoot to its end: P09 4.3's weighted sum of default, optimal and tropism direction.
+/// O(metamers made), on all threads.
+Traces trace_shoots(std::vector<Shoot>& shoots, const Plant& plant, const Guides& guides, int step);
 
 }  // namespace ramify::growth

@@ -1,52 +1,197 @@
 #include "growth/simulation.h"
 
+#include <algorithm>
+
 #include "growth/allocation.h"
+#include "growth/cutting.h"
 #include "growth/environment_light.h"
+#include "growth/environment_space.h"
+#include "growth/pruning.h"
 #include "growth/shedding.h"
 #include "growth/shoots.h"
 
 namespace ramify::growth {
+namespace {
 
-Simulation::Simulation(const Parameters& parameters)
-    : parameters_(parameters),
-      plant_(seedling(parameters)),
-      shadow_({.a = parameters.a, .b = parameters.b, .q_max = parameters.q_max}, parameters.voxel_edge()) {
-  if (parameters.casters == Casters::buds)
-    shadow_.cast(std::vector<Coord>{shadow_.voxel_of(plant_.position[0])});
+// Holes are closed when they are this share of an array: copying often costs more than skipping them.
+constexpr double kHoleShare = 0.125;
+
+Penumbra penumbra_of(const Parameters& world) {
+  return {.model = world.shadow,
+          .a = world.a,
+          .b = world.b,
+          .q_max = world.q_max,
+          .sun_direction = glm::normalize(world.sun_direction)};
+}
+
+/// The voxel a node of the plant casts its shadow from.
+Coord caster_of(const Plant& plant, std::uint32_t node, const Parameters& world, const ShadowGrid& shadow) {
+  const bool casts_from_start = world.shadow == ShadowModel::multiplicative;
+  return shadow.voxel_of(plant.position[casts_from_start ? plant.parent[node] : node]);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Parameters& world, bool with_history)
+    : world_(world),
+      shadow_(penumbra_of(world), world.voxel_edge()),
+      field_(shadow_, world.shadow, world.seed),
+      barriers_(world) {
+  const std::vector<TreePlace> places = world.planted();
+  const bool is_light = world.environment == Environment::light;
+  if (!is_light) markers_.emplace(scattered_markers(world, places));
+  for (const Obstacle& obstacle : world.obstacles) {
+    if (obstacle.shadow <= 0.0 || !is_light) continue;
+    const auto amount = static_cast<Shadow>(std::lround(obstacle.shadow / kShadowUnit));
+    shadow_.darken(voxels_inside(obstacle.volume, shadow_.voxel_size()), amount);
+  }
+  for (const TreePlace& place : places) {
+    const Coord voxel = shadow_.voxel_of(place.position);
+    GrowingTree& tree = trees_.emplace_back();
+    tree.place = place;
+    tree.plant = seedling(place, is_light ? shadow_.site_of(voxel) : 0);
+    if (is_light && world.casters == Casters::buds) changes_.added.push_back(voxel);
+    if (with_history) tree.history.emplace().record(tree.plant, 0);
+    if (markers_) {
+      markers_->occupy(tree.plant.position, occupied_radius(place, 0));
+    }
+  }
+  apply_changes();
+}
+
+std::size_t Simulation::internode_count() const {
+  std::size_t count = 0;
+  for (const GrowingTree& tree : trees_) count += tree.plant.internode_count();
+  return count;
 }
 
 void Simulation::sense() {
   const int step = step_ + 1;
-  sense_light(plant_, parameters_, shadow_, step, light_);
-  stopwatch_.lap("light");
-  sum_light(plant_, light_, sums_);
-  switch (parameters_.allocation) {
-    case Allocation::priority:
-      allocate_priority(plant_, light_, sums_, parameters_, step, vigour_);
-      break;
-    case Allocation::borchert_honda:
-      allocate_borchert_honda(plant_, light_, sums_, parameters_, step, vigour_);
-      break;
+  if (markers_) {
+    sense_space(trees_, *markers_, step);
+  } else {
+    for (GrowingTree& tree : trees_) {
+      sense_light(tree.plant, world_, tree.place, field_, step, tree.light);
+    }
+  }
+  stopwatch_.lap("environment");
+  for (GrowingTree& tree : trees_) {
+    sum_light(tree.plant, tree.light, tree.sums);
+    switch (tree.place.allocation) {
+      case Allocation::priority:
+        allocate_priority(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
+        break;
+      case Allocation::borchert_honda:
+        allocate_borchert_honda(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
+        break;
+    }
   }
   stopwatch_.lap("allocation");
 }
 
+double Simulation::planned() const {
+  double sum = static_cast<double>(internode_count());
+  for (const GrowingTree& tree : trees_) sum += planned_metamers(tree.vigour, tree.place, step_ + 1);
+  return sum;
+}
+
 bool Simulation::advance() {
   sense();
+  if (planned() > world_.max_internodes) return false;
   const int step = step_ + 1;
-  const double planned = planned_metamers(vigour_, parameters_, step);
-  if (static_cast<double>(plant_.internode_count()) + planned > parameters_.max_internodes) return false;
+  barriers_.set_step(step);
 
-  const std::vector<std::uint32_t> shaded = shaded_axes(plant_, sums_, parameters_, step);
-  const CasterChanges changes = extend_shoots(plant_, vigour_, parameters_, shadow_, step);
+  // Judged on the tree that was sensed, cut when it has grown.
+  std::vector<std::vector<std::uint32_t>> shaded;
+  for (const GrowingTree& tree : trees_) {
+    shaded.push_back(shaded_axes(tree.plant, tree.sums, tree.place, step));
+  }
+  shed_starved(step);
+  for (GrowingTree& tree : trees_) extend(tree, step);
   stopwatch_.lap("shoots");
-  shadow_.cast(changes.added);
-  shadow_.uncast(changes.removed);
-  stopwatch_.lap("shadow");
-  shadow_.uncast(shed_axes(plant_, shaded, parameters_, shadow_, step));
+  shed_shaded(shaded, step);
+  prune(step);
+  if (world_.leaf_lifespan > 0) {
+    for (const GrowingTree& tree : trees_) drop_leaves(tree, step);
+  }
+  for (GrowingTree& tree : trees_) {
+    abort_buds(tree.plant, world_, tree.place, shadow_, step, changes_);
+    compact(tree.plant, kHoleShare);
+  }
   stopwatch_.lap("shedding");
+  apply_changes();
+  stopwatch_.lap("shadow");
   step_ = step;
   return true;
+}
+
+void Simulation::extend(GrowingTree& tree, int step) {
+  Plant& plant = tree.plant;
+  const Guides guides{world_, tree.place, tree.place.seed, barriers_, field_, tree.space};
+  std::vector<Shoot> shoots = plan_shoots(plant, tree.vigour, tree.place, step);
+  const Traces traces = trace_shoots(shoots, plant, guides, step);
+  const std::size_t first = plant.node_count();
+  build_shoots(plant, shoots, traces, world_, tree.place, shadow_, step, changes_);
+  if (tree.history) tree.history->record(plant, first);
+  if (markers_) markers_->occupy(std::span(plant.position).subspan(first), occupied_radius(tree.place, step));
+}
+
+void Simulation::shed_starved(int step) {
+  for (GrowingTree& tree : trees_) {
+    cut(tree, starved_internodes(tree.plant, tree.sums, tree.vigour, tree.place, step), step);
+  }
+}
+
+void Simulation::shed_shaded(const std::vector<std::vector<std::uint32_t>>& shaded, int step) {
+  for (std::size_t i = 0; i < trees_.size(); ++i) cut(trees_[i], shaded[i], step);
+}
+
+void Simulation::prune(int step) {
+  for (const PruneEvent& event : world_.prune) {
+    if (!is_due(event, step)) continue;
+    for (GrowingTree& tree : trees_) cut(tree, pruned_internodes(tree.plant, event), step);
+  }
+}
+
+/// The metamers whose leaves have had their time cease to cast shadow.
+void Simulation::drop_leaves(const GrowingTree& tree, int step) {
+  if (world_.casters != Casters::metamers || markers_) return;
+  const Plant& plant = tree.plant;
+  const int birth_step = step - world_.leaf_lifespan;
+  if (birth_step < 1) return;
+  const auto [first, last] = std::equal_range(plant.birth_step.begin(), plant.birth_step.end(), birth_step);
+  for (auto it = first; it != last; ++it) {
+    const auto node = static_cast<std::uint32_t>(it - plant.birth_step.begin());
+    if (!plant.is_cut(node)) changes_.removed.push_back(caster_of(plant, node, world_, shadow_));
+  }
+}
+
+void Simulation::cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step) {
+  if (cuts.empty()) return;
+  Plant& plant = tree.plant;
+  const std::vector<std::uint32_t> nodes = nodes_beyond(plant, cuts);
+  for (const std::uint32_t node : nodes) {
+    if (tree.history) tree.history->shed_step[plant.id[node]] = static_cast<std::uint16_t>(step);
+    const bool casts =
+        !markers_ && world_.casters == Casters::metamers && has_leaves(world_, plant.birth_step[node], step);
+    if (casts) changes_.removed.push_back(caster_of(plant, node, world_, shadow_));
+  }
+  cut_away(plant, nodes);
+  for (Bud& bud : plant.buds) {
+    if (bud.is_dead() || !plant.is_cut(bud.node)) continue;
+    if (!markers_ && world_.casters == Casters::buds) {
+      changes_.removed.push_back(shadow_.voxel_of(plant.position[bud.node]));
+    }
+    bud.node = kNone;
+    ++plant.dead_buds;
+  }
+}
+
+void Simulation::apply_changes() {
+  shadow_.cast(changes_.added);
+  shadow_.uncast(changes_.removed);
+  changes_.added.clear();
+  changes_.removed.clear();
 }
 
 }  // namespace ramify::growth

@@ -1,40 +1,59 @@
-// One tree growing, a step at a time. Palubicki et al. 2009, Section 4.
+// Trees growing in one world, a step at a time. Palubicki et al. 2009, Section 4.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/base/stopwatch.h"
-#include "growth/plant.h"
+#include "growth/barriers.h"
+#include "growth/growing_tree.h"
+#include "growth/light_field.h"
+#include "growth/markers.h"
 #include "growth/shadow_grid.h"
+#include "growth/shoot_building.h"
 
 namespace ramify::growth {
 
 class Simulation {
  public:
-  explicit Simulation(const Parameters& parameters);
+  /// `with_history` keeps what is shed.
+  explicit Simulation(const Parameters& world, bool with_history = false);
 
-  /// Takes the next step. Returns false, with nothing changed, if it would make more than max_internodes.
+  /// Takes the next step. Returns false, with nothing changed, if it would make more than max_internodes
+  /// living ones.
   bool advance();
 
-  /// The resource that the tree as it stands has to share, a bud: what the next step will grow by.
+  /// The resource that the trees as they stand have to share, a bud: what the next step will grow by.
   void sense();
 
   int step() const { return step_; }
-  const Plant& plant() const { return plant_; }
+  std::size_t internode_count() const;  // living
+  const std::vector<GrowingTree>& trees() const { return trees_; }
   const ShadowGrid& shadow() const { return shadow_; }
-  const LightSums& sums() const { return sums_; }                // of the last sense()
-  const std::vector<double>& light() const { return light_; }    // Q a bud, likewise
-  const std::vector<double>& vigour() const { return vigour_; }  // v a bud, likewise
+  const std::optional<Markers>& markers() const { return markers_; }
   const Stopwatch& stopwatch() const { return stopwatch_; }
 
+  /// Gives the trees away: nothing but the shadow, the markers and the stopwatch may be asked for after that.
+  std::vector<GrowingTree> take_trees() { return std::move(trees_); }
+
  private:
-  const Parameters& parameters_;
-  Plant plant_;
+  double planned() const;
+  void extend(GrowingTree& tree, int step);
+  void drop_leaves(const GrowingTree& tree, int step);
+  void shed_starved(int step);
+  void shed_shaded(const std::vector<std::vector<std::uint32_t>>& shaded, int step);
+  void prune(int step);
+  void cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step);
+  void apply_changes();
+
+  const Parameters& world_;
   ShadowGrid shadow_;
+  LightField field_;
+  Barriers barriers_;
+  std::optional<Markers> markers_;
+  std::vector<GrowingTree> trees_;
+  CasterChanges changes_;
   int step_ = 0;
-  std::vector<double> light_;
-  LightSums sums_;
-  std::vector<double> vigour_;
   Stopwatch stopwatch_;
 };
 

@@ -71,10 +71,13 @@ inline Vec3 perpendicular_at(const Vec3& direction, double azimuth) {
 /// `normal` carried along a curve whose unit tangent turns from `from` to `to`, without twist
 /// (parallel transport). Stays perpendicular to the tangent.
 inline Vec3 transported(const Vec3& normal, const Vec3& from, const Vec3& to) {
-  const Vec3 axis = glm::cross(from, to);
-  const double sine = glm::length(axis);
+  // The turn from a to b takes v to v - (a + b) (a + b).v / (1 + a.b) + 2 b (a.v): no angle is needed.
+  const double cosine = glm::dot(from, to);
   Vec3 carried = normal;
-  if (sine > 1e-12) carried = rotated(normal, axis / sine, std::atan2(sine, glm::dot(from, to)));
+  if (cosine > -1.0 + 1e-9) {
+    const Vec3 sum = from + to;
+    carried += to * (2.0 * glm::dot(from, normal)) - sum * (glm::dot(sum, normal) / (1.0 + cosine));
+  }
   // Rounding would add up over thousands of rings.
   carried -= to * glm::dot(carried, to);
   return normalized_or(carried, any_perpendicular(to));

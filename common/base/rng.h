@@ -15,6 +15,8 @@ enum class Stream : std::uint64_t {
   surplus,      // pathplan: which nodes of the last pass are dropped
   edge_weight,  // pathplan: by (lower node, higher node)
   endpoint,     // pathplan: which nodes become endpoints
+  marker,       // growth: where the i-th marker point of a volume is
+  sky,          // growth: the uneven light of a voxel, by (x and y, z)
 };
 
 class Rng {

@@ -76,12 +76,14 @@ std::vector<std::uint16_t> strahler_orders(const Skeleton& skeleton) {
   return order;
 }
 
-void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model) {
+void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model,
+                           const std::vector<std::uint32_t>& lost_tips) {
   if (!(model.exponent > 0)) {
     throw InputError(fmt::format("pipe model: exponent {} (must be greater than 0)", model.exponent));
   }
   // In units of a tip's d^n the sums are counts of the tips ever borne: whole numbers, so exact in any order.
-  std::vector<std::uint64_t> tips(skeleton.node_count(), 0);
+  std::vector<std::uint64_t> tips(lost_tips.begin(), lost_tips.end());
+  tips.resize(skeleton.node_count(), 0);
   for (std::size_t node = skeleton.node_count(); node-- > 0;) {
     tips[node] = std::max<std::uint64_t>(tips[node], 1);
     if (!skeleton.is_root(node)) tips[skeleton.parent[node]] += tips[node];

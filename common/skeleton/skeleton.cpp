@@ -146,6 +146,73 @@ Skeleton subset(const Skeleton& skeleton, const std::vector<bool>& keep) {
   return result;
 }
 
+Skeleton joined(const std::vector<Skeleton>& trees) {
+  if (trees.empty()) return {};
+  // Where each tree's nodes go: roots to the front, the others behind all roots.
+  std::size_t next_root = 0;
+  std::size_t next = 0;
+  for (const Skeleton& tree : trees) next += tree.root_count();
+  std::vector<std::vector<std::uint32_t>> new_index(trees.size());
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    for (std::size_t node = 0; node < trees[i].node_count(); ++node) {
+      new_index[i].push_back(static_cast<std::uint32_t>(trees[i].is_root(node) ? next_root++ : next++));
+    }
+  }
+
+  Skeleton result;
+  const auto put = [&](auto column_of, const auto& value) {
+    auto& target = column_of(result);
+    target.resize(column_of(trees.front()).empty() ? 0 : next);
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      const auto& source = column_of(trees[i]);
+      for (std::size_t node = 0; node < source.size(); ++node) {
+        target[new_index[i][node]] = value(i, source[node]);
+      }
+    }
+  };
+  const auto same = [](std::size_t, const auto& value) { return value; };
+  const auto count = static_cast<std::uint32_t>(trees.size());
+  put(
+      [](auto& s) -> auto& { return s.position; }, same);
+  put(
+      [](auto& s) -> auto& { return s.parent; },
+      [&](std::size_t i, std::uint32_t parent) {
+        return parent == kNoParent ? parent : new_index[i][parent];
+      });
+  put(
+      [](auto& s) -> auto& { return s.diameter; }, same);
+  put(
+      [](auto& s) -> auto& { return s.axis; },
+      [&](std::size_t i, std::uint32_t axis) { return axis * count + static_cast<std::uint32_t>(i); });
+  put(
+      [](auto& s) -> auto& { return s.order; }, same);
+  put(
+      [](auto& s) -> auto& { return s.kind; }, same);
+  put(
+      [](auto& s) -> auto& { return s.birth_step; }, same);
+  put(
+      [](auto& s) -> auto& { return s.shed_step; }, same);
+  put(
+      [](auto& s) -> auto& { return s.level; }, same);
+  put(
+      [](auto& s) -> auto& { return s.light; }, same);
+  put(
+      [](auto& s) -> auto& { return s.vigour; }, same);
+  for (const auto& [name, values] : trees.front().channels) {
+    put(
+        [&name = name](auto& s) -> auto& {
+          if constexpr (std::is_const_v<std::remove_reference_t<decltype(s)>>) {
+            return s.channels.at(name);
+          } else {
+            return s.channels[name];
+          }
+        },
+        same);
+  }
+  result.pipe_model = trees.front().pipe_model;
+  return result;
+}
+
 std::vector<std::string> violations(const Skeleton& skeleton, std::size_t limit) {
   Findings found(limit);
   check_sizes(skeleton, found);

@@ -4,6 +4,7 @@
 
 #include "growth/simulation.h"
 #include "tests/catch.h"
+#include "tests/growth/plants.h"
 #include "tests/growth/runs.h"
 
 using namespace ramify;
@@ -12,26 +13,17 @@ using namespace ramify::test;
 
 namespace {
 
-void add_node(Plant& plant, std::uint32_t parent, std::uint32_t axis) {
-  plant.position.push_back(Vec3(0, double(plant.node_count()), 0));
-  plant.parent.push_back(parent);
-  plant.axis.push_back(axis);
-  plant.birth_step.push_back(1);
-  plant.shed_step.push_back(kAlive);
-}
-
 /// A trunk of one internode with a terminal and an axillary bud, and a lateral axis of one internode with a
 /// terminal bud on the trunk's first node.
 struct Fork {
   Plant plant;
   std::vector<double> light = {0.5, 0.25, 1.0};  // terminal, axillary, lateral's terminal
-  LightSums sums;
+  std::vector<LightSum> sums;
 
   Fork() {
-    plant = seedling(Parameters{});
+    plant = test::seedling();
     add_node(plant, 0, 0);
     add_node(plant, 1, 1);
-    plant.axes.push_back({.base = 1, .first = 2, .node_count = 1, .birth_step = 1, .order = 1});
     plant.buds = {{.node = 1, .axis = 0, .is_terminal = true},
                   {.node = 1, .axis = 0, .is_terminal = false},
                   {.node = 2, .axis = 1, .is_terminal = true}};
@@ -51,12 +43,12 @@ bool is_near(double a, double b) {
 
 TEST_CASE("light sums: each node has what its buds and all beyond them get") {
   const Fork fork;
-  CHECK(fork.sums.total(0) == 1.75);
-  CHECK(fork.sums.main[1] == 0.5);
-  CHECK(fork.sums.lateral[1] == 1.25);
-  CHECK(fork.sums.buds[0] == 3);
-  CHECK(fork.sums.buds[2] == 1);
-  CHECK(fork.sums.internodes[1] == 2);
+  CHECK(fork.sums[0].total() == 1.75);
+  CHECK(fork.sums[1].main == 0.5);
+  CHECK(fork.sums[1].lateral == 1.25);
+  CHECK(fork.sums[0].buds == 3);
+  CHECK(fork.sums[2].buds == 1);
+  CHECK(fork.sums[1].internodes == 2);
 }
 
 TEST_CASE("Borchert-Honda: a fork shares by lambda times light") {
@@ -127,14 +119,14 @@ TEST_CASE("priority: the terminal bud leads whatever its light, until it no long
 }
 
 TEST_CASE("priority: among equals the one nearest the tip leads, the terminal bud before its axillary") {
-  Plant plant = seedling(Parameters{});
+  Plant plant = test::seedling();
   add_node(plant, 0, 0);
   add_node(plant, 1, 0);
   plant.buds = {{.node = 1, .axis = 0, .is_terminal = false},
                 {.node = 2, .axis = 0, .is_terminal = false},
                 {.node = 2, .axis = 0, .is_terminal = true}};
   const std::vector<double> light = {1.0, 1.0, 1.0};
-  LightSums sums;
+  std::vector<LightSum> sums;
   sum_light(plant, light, sums);
   Parameters parameters;
   parameters.kappa = 1.0;
@@ -158,18 +150,52 @@ TEST_CASE("allocation: in the dark nobody gets anything") {
   CHECK(v == std::vector<double>{0, 0, 0});
 }
 
-TEST_CASE(
-    "allocation: what the buds are offered is what the root has, at every step of every preset, either way") {
+TEST_CASE("Borchert-Honda: a demand by mean light counts n (Q / n)^exponent a side, and 1 is the sum's") {
+  Fork fork;
+  Parameters parameters;
+  parameters.lambda = 0.6;
+  std::vector<double> by_sum, v;
+  allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, by_sum);
+  parameters.demand = Demand::mean;
+  allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, v);
+  for (std::size_t i = 0; i < v.size(); ++i) CHECK(is_near(v[i], by_sum[i]));
+
+  parameters.demand_exponent = 3.0;
+  allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, v);
+  // The lateral has an internode and a bud, n = 2, the others are buds, n = 1.
+  const double main = 0.6 * std::pow(0.5, 3);
+  const double bud = 0.4 * std::pow(0.25, 3);
+  const double lateral = 0.4 * 2 * std::pow(0.5, 3);
+  CHECK(is_near(v[0], 3.5 * main / (main + bud + lateral)));
+  CHECK(is_near(v[1], 3.5 * bud / (main + bud + lateral)));
+  CHECK(is_near(v[2], 3.5 * lateral / (main + bud + lateral)));
+}
+
+TEST_CASE("allocation: what the buds are offered is what the root has, at every step of every preset") {
   for (const std::string& preset : growth_presets()) {
     for (const char* model : {"priority", "borchert-honda"}) {
-      INFO(preset << " " << model);
-      Parameters parameters = growth_parameters(preset, {std::string("growth.allocation=") + model});
-      parameters.steps = std::min(parameters.steps, 12);
-      Simulation simulation(parameters);
-      while (simulation.step() < parameters.steps) {
-        REQUIRE(simulation.advance());
-        const double root = root_vigour(simulation.sums(), parameters, simulation.step());
-        CHECK(std::abs(sum(simulation.vigour()) - root) <= 1e-9 * root);
+      for (const char* demand : {"sum", "mean"}) {
+        if (std::string(model) == "priority" && std::string(demand) == "mean") continue;
+        INFO(preset << " " << model << " " << demand);
+        Parameters parameters =
+            growth_parameters(preset, {std::string("growth.allocation=") + model,
+                                       std::string("growth.demand=") + demand, "growth.demand_exponent=1.7"});
+        for (TreePlace& tree : parameters.trees) {
+          tree.allocation = parameters.allocation;
+          tree.demand = parameters.demand;
+          tree.demand_exponent = parameters.demand_exponent;
+        }
+        parameters.steps = std::min(parameters.steps, 12);
+        Simulation simulation(parameters);
+        while (simulation.step() < parameters.steps) {
+          REQUIRE(simulation.advance());
+          simulation.sense();
+          for (const GrowingTree& tree : simulation.trees()) {
+            if (tree.sums[0].total() <= 0.0) continue;
+            const double root = root_vigour(tree.sums, tree.place, simulation.step() + 1);
+            REQUIRE(std::abs(sum(tree.vigour) - root) <= 1e-9 * root);
+          }
+        }
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 
+#include "common/base/parallel.h"
 #include "common/base/rng.h"
 #include "growth/simulation.h"
 #include "tests/catch.h"
@@ -96,20 +97,82 @@ TEST_CASE("shadow: the world has no edge") {
   CHECK(grid.layer().voxels.empty());
 }
 
-TEST_CASE("shadow: a block that is gathered holds the same values as its voxels") {
+TEST_CASE("shadow: a voxel read by its site, or by a reader, is the voxel") {
   const std::vector<Coord> casters = random_casters(3, 200, 10);
   ShadowGrid grid({}, 1.0);
   grid.cast(casters);
-  std::vector<Shadow> block(7 * 7 * 7);
-  for (const Coord low : {Coord(-3, -3, -3), Coord(5, -20, 8), Coord(900, 0, 0)}) {
-    grid.gather(low, 7, block);
-    std::size_t at = 0;
-    for (int x = 0; x < 7; ++x) {
-      for (int y = 0; y < 7; ++y) {
-        for (int z = 0; z < 7; ++z) CHECK(block[at++] == grid.at(low + Coord(x, y, z)));
+  LeafReader reader = grid.reader();
+  for (const Coord& voxel : random_casters(4, 200, 14)) {
+    CHECK(reader.at(voxel) == grid.at(voxel));
+    const Shadow before = grid.at(voxel);
+    CHECK(grid.at(grid.site_of(voxel)) == before);
+  }
+  const Site site = grid.site_of({900, 0, 0});
+  CHECK(grid.at(site) == 0);
+  grid.cast(std::vector<Coord>{{900, 0, 0}});
+  CHECK(grid.at(site) == grid.own_shadow());
+}
+
+TEST_CASE("shadow: a low sun shifts each level away from it by whole voxels") {
+  for (const Vec3 sun : {Vec3(1, 1, 0), Vec3(-2, 1, 0.3), Vec3(0.2, 1, -1.4)}) {
+    ShadowGrid grid({.sun_direction = glm::normalize(sun)}, 1.0);
+    const std::vector<Coord> casters = random_casters(8, 700, 30);
+    grid.cast(casters);
+    Voxels expected;
+    for (const Coord& c : casters) {
+      for (int q = 0; q <= 4; ++q) {
+        const int shift_x = static_cast<int>(std::lround(-q * sun.x / sun.y));
+        const int shift_z = static_cast<int>(std::lround(-q * sun.z / sun.y));
+        for (int i = -q; i <= q; ++i) {
+          for (int k = -q; k <= q; ++k) {
+            expected[{c.x + shift_x + i, c.y - q, c.z + shift_z + k}] +=
+                std::lround(0.2 * std::pow(2.0, -q) * 65536.0);
+          }
+        }
+      }
+    }
+    check_equal(grid, expected);
+  }
+}
+
+TEST_CASE("shadow: a multiplicative caster adds the logarithms of its factors on levels 1 to 5") {
+  ShadowGrid grid({.model = ShadowModel::multiplicative}, 1.0);
+  grid.cast(std::vector<Coord>{{3, 9, -2}});
+  Voxels expected;
+  for (int q = 1; q <= 5; ++q) {
+    for (int i = -q; i <= q; ++i) {
+      for (int k = -q; k <= q; ++k) {
+        const double distance = std::sqrt(i * i + q * q + k * k);
+        expected[{3 + i, 9 - q, -2 + k}] =
+            std::lround(-std::log(1.0 - 0.441 * std::pow(6.31, -distance)) * 65536.0);
       }
     }
   }
+  CHECK(grid.own_shadow() == 0);
+  CHECK(grid.at({3, 9, -2}) == 0);
+  for (const auto& [voxel, value] : expected) CHECK(grid.at({voxel[0], voxel[1], voxel[2]}) == value);
+}
+
+TEST_CASE("shadow: a darkened voxel darkens no other") {
+  ShadowGrid grid({}, 1.0);
+  grid.darken(std::vector<Coord>{{5, 5, 5}, {-70, 0, 0}}, 1000);
+  CHECK(grid.at({5, 5, 5}) == 1000);
+  CHECK(grid.at({-70, 0, 0}) == 1000);
+  CHECK(grid.layer().voxels.size() == 2);
+}
+
+TEST_CASE("shadow: many casters on two threads give the field of one") {
+  const std::vector<Coord> casters = random_casters(6, 20'000, 40);
+  ShadowGrid one({}, 1.0), two({}, 1.0);
+  {
+    const ThreadLimit limit(1);
+    one.cast(casters);
+  }
+  const ThreadLimit limit(2);
+  two.cast(casters);
+  const VoxelLayer a = one.layer(), b = two.layer();
+  CHECK(a.voxels == b.voxels);
+  CHECK(a.values == b.values);
 }
 
 TEST_CASE("shadow: the root stands in the middle of a voxel") {
@@ -119,27 +182,67 @@ TEST_CASE("shadow: the root stands in the middle of a voxel") {
   CHECK(grid.voxel_of({-0.26, 1.0, -100}) == Coord(-1, 2, -200));
 }
 
+namespace {
+
+/// Casters of a world as it stands after `step`, with no thought of when they began or ceased to be.
+std::vector<Coord> living_casters(const Simulation& simulation, const Parameters& parameters) {
+  std::vector<Coord> casters;
+  for (const GrowingTree& tree : simulation.trees()) {
+    const Plant& plant = tree.plant;
+    if (parameters.casters == Casters::buds) {
+      for (const Bud& bud : plant.buds) {
+        if (!bud.is_dead()) casters.push_back(simulation.shadow().voxel_of(plant.position[bud.node]));
+      }
+      continue;
+    }
+    for (std::size_t node = 1; node < plant.node_count(); ++node) {
+      const int age = simulation.step() - plant.birth_step[node];
+      const bool has_leaves = parameters.leaf_lifespan == 0 || age < parameters.leaf_lifespan;
+      if (!plant.is_cut(node) && has_leaves)
+        casters.push_back(simulation.shadow().voxel_of(plant.position[node]));
+    }
+  }
+  return casters;
+}
+
+void check_every_step(Parameters parameters, int steps) {
+  parameters.steps = std::min(parameters.steps, steps);
+  Simulation simulation(parameters);
+  while (simulation.step() < parameters.steps) {
+    REQUIRE(simulation.advance());
+    check_equal(simulation.shadow(),
+                brute_force(living_casters(simulation, parameters),
+                            {.a = parameters.a, .b = parameters.b, .q_max = parameters.q_max}));
+  }
+}
+
+}  // namespace
+
 TEST_CASE("shadow: at every step of every preset the grid is the sum over the living casters") {
   for (const std::string& preset : growth_presets()) {
     INFO(preset);
     Parameters parameters = growth_parameters(preset);
-    parameters.steps = std::min(parameters.steps, 9);
-    Simulation simulation(parameters);
-    while (simulation.step() < parameters.steps) {
-      REQUIRE(simulation.advance());
-      const Plant& plant = simulation.plant();
-      std::vector<Coord> casters;
-      if (parameters.casters == Casters::buds) {
-        for (const Bud& bud : plant.buds)
-          casters.push_back(simulation.shadow().voxel_of(plant.position[bud.node]));
-      } else {
-        for (std::size_t node = 1; node < plant.node_count(); ++node) {
-          if (plant.shed_step[node] == kAlive)
-            casters.push_back(simulation.shadow().voxel_of(plant.position[node]));
-        }
-      }
-      check_equal(simulation.shadow(),
-                  brute_force(casters, {.a = parameters.a, .b = parameters.b, .q_max = parameters.q_max}));
-    }
+    if (parameters.environment != Environment::light || parameters.shadow != ShadowModel::additive) continue;
+    parameters.obstacles.clear();
+    parameters.sun_direction = kUp;
+    check_every_step(parameters, 9);
+  }
+}
+
+TEST_CASE("shadow: the grid is the sum over the living casters whatever sheds, falls, aborts or is pruned") {
+  const std::vector<std::vector<std::string>> variants = {
+      {"growth.leaf_lifespan=2"},
+      {"growth.leaf_lifespan=3", "growth.shed_threshold=0.3"},
+      {"growth.casters=buds", "growth.bud_lifespan=2", "growth.shed_threshold=0.2"},
+      {"growth.shed_by=vigour", "growth.shed_threshold=0.4", "growth.casters=buds"},
+      {"growth.shed_by=vigour", "growth.shed_threshold=0.4", "growth.leaf_lifespan=4"},
+      {"growth.tip_bud=terminal", "growth.casters=buds", "growth.sympodial=true"},
+      {"growth.phyllotaxis=opposite", "growth.casters=buds", "growth.tip_bud=terminal"}};
+  for (std::vector<std::string> variant : variants) {
+    INFO(variant.front());
+    variant.push_back(
+        "growth.prune=[{step = 4, every = 3, cut = \"outside\", volume = {shape = \"sphere\", "
+        "center = [0.0, 0.6, 0.0], radius = 0.6}}]");
+    check_every_step(growth_parameters("p09-fig7-50", variant), 10);
   }
 }

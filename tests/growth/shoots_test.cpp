@@ -1,24 +1,32 @@
-// Shoots, phyllotaxis and shedding.
-
 #include "growth/shoots.h"
 
-#include "growth/phyllotaxis.h"
-#include "growth/shedding.h"
-#include "growth/simulation.h"
+#include "growth/shoot_building.h"
 #include "tests/catch.h"
-#include "tests/growth/runs.h"
 
 using namespace ramify;
 using namespace ramify::growth;
-using namespace ramify::test;
 
 namespace {
 
+/// Makes shoots with this vigour a bud in an unshaded world.
+void grow(Plant& plant, const Parameters& parameters, const std::vector<double>& vigour, int step = 1) {
+  ShadowGrid shadow({}, parameters.voxel_edge());
+  const LightField field(shadow, parameters.shadow, 1);
+  Barriers barriers(parameters);
+  barriers.set_step(step);
+  const std::vector<Vec3f> space;
+  std::vector<Shoot> shoots = plan_shoots(plant, vigour, parameters, step);
+  const Guides guides{parameters, parameters, parameters.seed, barriers, field, space};
+  const Traces traces = trace_shoots(shoots, plant, guides, step);
+  CasterChanges changes;
+  build_shoots(plant, shoots, traces, parameters, parameters, shadow, step, changes);
+  compact(plant, 0.0);
+}
+
 /// A seedling after one step with this vigour at its only bud.
 Plant grown(const Parameters& parameters, double vigour) {
-  Plant plant = seedling(parameters);
-  const ShadowGrid shadow({}, parameters.voxel_edge());
-  extend_shoots(plant, {vigour}, parameters, shadow, 1);
+  Plant plant = seedling(parameters.planted().front(), 0);
+  grow(plant, parameters, {vigour});
   return plant;
 }
 
@@ -69,7 +77,7 @@ TEST_CASE("shoots: the last node bears both buds, or the terminal alone until it
   std::vector<double> vigour(plant.buds.size(), 0.0);
   vigour.back() = 1.0;
   CHECK(plant.buds.back().is_terminal);
-  extend_shoots(plant, vigour, parameters, ShadowGrid({}, 0.1), 2);
+  grow(plant, parameters, vigour, 2);
   CHECK(axillary_buds(plant) == 4);
 }
 
@@ -98,77 +106,132 @@ TEST_CASE("shoots: nothing grows below ground, a bud blocked at once dies and la
   CHECK(grown(parameters, 4.0).internode_count() == 4);
 }
 
-TEST_CASE("phyllotaxis: spiral buds stand at the branching angle, 137.5 degrees apart") {
+TEST_CASE("shoots: an obstacle stops a shoot, and kills a bud that it blocks at once") {
   Parameters parameters;
-  parameters.branching_angle_deg = 50.0;
-  Axis axis;
-  axis.direction = glm::normalize(Vec3(1, 2, 3));
-  axis.reference = any_perpendicular(axis.direction);
-  Vec3 previous(0.0);
-  for (std::uint32_t rank = 0; rank < 10; ++rank) {
-    const Vec3 bud = axillary_direction(parameters, axis, 0, rank, 1);
-    CHECK(std::abs(glm::length(bud) - 1.0) < 1e-12);
-    CHECK(std::abs(degrees(std::acos(glm::dot(bud, axis.direction))) - 50.0) < 1e-9);
-    const Vec3 outwards = glm::normalize(bud - axis.direction * glm::dot(bud, axis.direction));
-    if (rank > 0) CHECK(std::abs(degrees(std::acos(glm::dot(outwards, previous))) - 137.5) < 1e-6);
-    previous = outwards;
-  }
+  parameters.w_optimal = 0.0;
+  Obstacle ceiling;
+  ceiling.volume = {.shape = Shape::cylinder, .center = {0, 0.25, 0}, .radius = 5.0, .height = 0.001};
+  parameters.obstacles = {ceiling};
+  Plant plant = grown(parameters, 4.0);
+  CHECK(plant.internode_count() == 2);
+  CHECK(plant.buds.back().is_terminal);
+
+  // A wall thinner than an internode is not jumped.
+  std::vector<double> vigour(plant.buds.size(), 0.0);
+  vigour.back() = 3.0;
+  grow(plant, parameters, vigour, 2);
+  CHECK(plant.internode_count() == 2);
+  for (const Bud& bud : plant.buds) CHECK_FALSE(bud.is_terminal);
 }
 
-TEST_CASE("phyllotaxis: planar buds fall left and right of their axis equally often") {
+TEST_CASE("shoots: tropisms act on their axis orders alone, and plagiotropism takes to the horizontal") {
   Parameters parameters;
-  parameters.phyllotaxis = Phyllotaxis::planar_random;
+  parameters.w_optimal = 0.0;
+  parameters.tropism["east"] = {.weight = 1.0, .direction = Vec3(3, 0, 0), .min_order = 0, .max_order = 0};
+  parameters.tropism["flat"] = {.weight = 0.5, .towards = Towards::horizontal, .min_order = 1};
   parameters.branching_angle_deg = 45.0;
-  Axis axis;
-  int left = 0;
-  for (std::uint32_t rank = 0; rank < 1000; ++rank) {
-    const Vec3 bud = axillary_direction(parameters, axis, 3, rank, 1);
-    CHECK(std::abs(bud.z) < 1e-12);
-    CHECK(std::abs(bud.y - std::sqrt(0.5)) < 1e-12);
-    left += bud.x < 0;
-  }
-  CHECK(std::abs(left - 500) < 80);  // 5 standard deviations
-  axis.direction = Vec3(0, 0, 1);
-  CHECK(std::abs(axillary_direction(parameters, axis, 3, 0, 1).z - std::sqrt(0.5)) < 1e-12);
+  Plant plant = grown(parameters, 2.0);
+  const Vec3 trunk = plant.position[1] - plant.position[0];
+  CHECK(std::abs(trunk.x - trunk.y) < 1e-9);
+
+  std::vector<double> vigour(plant.buds.size(), 0.0);
+  const Vec3 bud(plant.buds[0].direction);
+  REQUIRE_FALSE(plant.buds[0].is_terminal);
+  vigour[0] = 1.0;
+  grow(plant, parameters, vigour, 2);
+  const Vec3 flat = glm::normalize(Vec3(bud.x, 0, bud.z));
+  const Vec3 lateral = glm::normalize(plant.position.back() - plant.position[plant.parent.back()]);
+  CHECK(glm::length(lateral - glm::normalize(bud + 0.5 * flat)) < 1e-6);
 }
 
-TEST_CASE("shedding: an axis in the shade goes with all that grows on it, the trunk never") {
-  Parameters parameters = growth_parameters("p09-fig7-50", {"growth.shed_threshold=0.4"});
-  Simulation simulation(parameters);
-  for (int i = 0; i < 12; ++i) REQUIRE(simulation.advance());
-  const Plant& plant = simulation.plant();
-  std::size_t shed = 0;
-  for (std::size_t node = 1; node < plant.node_count(); ++node) {
-    const Axis& axis = plant.axes[plant.axis[node]];
-    CHECK(axis.is_shed == (plant.shed_step[node] != kAlive));
-    if (plant.axes[plant.axis[plant.parent[node]]].is_shed) CHECK(axis.is_shed);
-    shed += axis.is_shed;
-  }
-  CHECK(shed > 100);
-  CHECK_FALSE(plant.axes[0].is_shed);
-  for (const Bud& bud : plant.buds) CHECK_FALSE(plant.axes[bud.axis].is_shed);
-}
-
-TEST_CASE(
-    "shedding: an axis is judged by light an internode, not in the step that makes it, not before its time") {
+TEST_CASE("shoots: slerp turns each metamer by a share of the angle to the pull") {
   Parameters parameters;
-  parameters.shed_threshold = 0.5;
-  Plant plant = seedling(parameters);
-  plant.axes.push_back({.base = 0, .first = 1, .node_count = 2, .birth_step = 1, .order = 1});
-  for (std::uint32_t parent : {0u, 1u}) {
-    plant.position.push_back(Vec3(0.0));
-    plant.parent.push_back(parent);
-    plant.axis.push_back(1);
-    plant.birth_step.push_back(1);
-    plant.shed_step.push_back(kAlive);
+  parameters.w_optimal = 0.0;
+  parameters.combine = Combine::slerp;
+  parameters.tropism["east"] = {.weight = 0.25, .direction = Vec3(1, 0, 0)};
+  Plant plant = grown(parameters, 2.0);
+  const auto angle = [&](std::size_t node) {
+    const Vec3 along = plant.position[node] - plant.position[node - 1];
+    return degrees(std::atan2(along.x, along.y));
+  };
+  CHECK(std::abs(angle(1) - 22.5) < 1e-9);
+  CHECK(std::abs(angle(2) - (22.5 + 0.25 * 67.5)) < 1e-9);
+
+  parameters.tropism["east"].weight = 5.0;  // no more than turn_max
+  plant = grown(parameters, 1.0);
+  CHECK(std::abs(angle(1) - 0.4 * 90.0) < 1e-9);
+}
+
+TEST_CASE("shoots: the best direction is looked for at each metamer, or once a shoot") {
+  Parameters parameters;
+  parameters.optimal_from = OptimalFrom::gradient;
+  parameters.w_optimal = 5.0;
+  parameters.voxel_size = 0.1;
+  const auto end = [&](OptimalPer per) {
+    parameters.v_per = per;
+    Plant plant = seedling(parameters.planted().front(), 0);
+    ShadowGrid shadow({}, 0.1);
+    shadow.cast(std::vector<Coord>{{1, 2, 0}, {1, 3, 0}, {2, 3, 1}});
+    const LightField field(shadow, ShadowModel::additive, 1);
+    Barriers barriers(parameters);
+    const std::vector<Vec3f> space;
+    std::vector<Shoot> shoots = plan_shoots(plant, {4.0}, parameters, 1);
+    const Guides guides{parameters, parameters, 1, barriers, field, space};
+    return trace_shoots(shoots, plant, guides, 1).position.back();
+  };
+  CHECK(glm::length(end(OptimalPer::metamer) - end(OptimalPer::shoot)) > 0.01);
+}
+
+TEST_CASE("shoots: a sympodial axis goes on from the axillary bud at its tip") {
+  Parameters parameters;
+  parameters.w_optimal = 0.0;
+  parameters.sympodial = true;
+  parameters.branching_angle_deg = 30.0;
+  for (const TipBud tip_bud : {TipBud::both, TipBud::terminal}) {
+    parameters.tip_bud = tip_bud;
+    Plant plant = grown(parameters, 3.0);
+    CHECK(axillary_buds(plant) == (tip_bud == TipBud::both ? 2u : 2u));
+    const Bud& tip = plant.buds.back();
+    REQUIRE(tip.is_terminal);
+    CHECK(tip.node == 3);
+    CHECK(std::abs(degrees(std::acos(double(tip.direction.y))) - 30.0) < 1e-3);
+    std::vector<double> vigour(plant.buds.size(), 0.0);
+    vigour.back() = 2.0;
+    grow(plant, parameters, vigour, 2);
+    CHECK(plant.axes.size() == 1);  // the same axis
+    CHECK(plant.axis.back() == 0);
   }
-  plant.buds.push_back({.node = 2, .axis = 1, .is_terminal = true});
-  LightSums sums;
-  sum_light(plant, {1.0, 1.0}, sums);
-  CHECK(shaded_axes(plant, sums, parameters, 2).empty());  // 1 / 2 is not below
-  sum_light(plant, {1.0, 0.99}, sums);
-  CHECK(shaded_axes(plant, sums, parameters, 2) == std::vector<std::uint32_t>{1});
-  parameters.shed_after = 2;
-  CHECK(shaded_axes(plant, sums, parameters, 2).empty());
-  CHECK(shaded_axes(plant, sums, parameters, 3).size() == 1);
+}
+
+TEST_CASE("shoots: an axis of whorls that is sympodial leaves the others of its tip as laterals") {
+  Parameters parameters;
+  parameters.sympodial = true;
+  parameters.phyllotaxis = Phyllotaxis::whorled;
+  parameters.whorl_buds = 4;
+  const Plant plant = grown(parameters, 2.0);
+  CHECK(axillary_buds(plant) == 4 + 3);
+  CHECK(plant.buds.size() == 8);
+}
+
+TEST_CASE("buds: one that has rested for bud_lifespan steps dies, one that grew begins anew") {
+  Parameters parameters;
+  parameters.bud_lifespan = 3.0;
+  Plant plant = grown(parameters, 2.0);  // made in step 1
+  const ShadowGrid shadow({}, 0.1);
+  CasterChanges changes;
+  abort_buds(plant, parameters, parameters, shadow, 3, changes);
+  CHECK(plant.dead_buds == 0);
+  std::vector<double> vigour(plant.buds.size(), 0.0);
+  vigour.back() = 1.0;
+  grow(plant, parameters, vigour, 3);
+  CHECK(plant.buds.size() == 4);
+  abort_buds(plant, parameters, parameters, shadow, 4, changes);
+  CHECK(plant.dead_buds == 2);
+  compact(plant, 0.0);
+  for (const Bud& bud : plant.buds) CHECK(bud.birth_step == 3);
+  CHECK(changes.removed.empty());
+
+  parameters.casters = Casters::buds;
+  abort_buds(plant, parameters, parameters, shadow, 6, changes);
+  CHECK(changes.removed.size() == 2);
 }

@@ -1,0 +1,59 @@
+#include "growth/environment_space.h"
+
+#include <algorithm>
+
+namespace ramify::growth {
+namespace {
+
+/// The greatest value a schedule ever has.
+double greatest(const Schedule& schedule) {
+  double value = schedule.points().front().second;
+  for (const auto& point : schedule.points()) value = std::max(value, point.second);
+  return value;
+}
+
+}  // namespace
+
+Markers scattered_markers(const Parameters& world, const std::vector<TreePlace>& places) {
+  double reach = 0.0;
+  for (const TreePlace& place : places) {
+    reach = std::max(reach, greatest(place.r) * greatest(place.internode_length));
+  }
+  const double volume = volume_of(world.markers.volume);
+  return Markers(Solid(world.markers.volume), volume, world.markers.density, world.seed, reach);
+}
+
+double occupied_radius(const TreeParameters& tree, int step) {
+  return tree.rho.at(step) * tree.internode_length.at(step);
+}
+
+void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step) {
+  std::vector<Seeker> seekers;
+  for (GrowingTree& tree : trees) {
+    tree.light.assign(tree.plant.buds.size(), 0.0);
+    tree.space.resize(tree.plant.buds.size());
+    const double radius = tree.place.r.at(step) * tree.place.internode_length.at(step);
+    const double min_cosine = std::cos(radians(tree.place.theta_deg.at(step) / 2.0));
+    for (std::size_t i = 0; i < tree.plant.buds.size(); ++i) {
+      const Bud& bud = tree.plant.buds[i];
+      tree.space[i] = bud.direction;
+      if (bud.is_dead() || markers.is_barren(tree.plant.position[bud.node])) continue;
+      seekers.push_back({tree.plant.position[bud.node], Vec3(bud.direction), radius, min_cosine});
+      tree.light[i] = 1.0;  // that it looks; for the second pass
+    }
+  }
+
+  std::vector<Claim> claims;
+  markers.claim(seekers, claims);
+  auto claim = claims.cbegin();
+  for (GrowingTree& tree : trees) {
+    for (std::size_t i = 0; i < tree.light.size(); ++i) {
+      if (tree.light[i] == 0.0) continue;
+      tree.light[i] = claim->markers > 0 ? 1.0 : 0.0;
+      tree.space[i] = Vec3f(claim->direction);
+      ++claim;
+    }
+  }
+}
+
+}  // namespace ramify::growth

@@ -1,0 +1,22 @@
+// Space as trees see it: marker points that nodes take away and buds grow towards. Palubicki et al. 2009,
+// 4.1; Runions et al. 2007.
+#pragma once
+
+#include <vector>
+
+#include "growth/growing_tree.h"
+#include "growth/markers.h"
+
+namespace ramify::growth {
+
+/// The world's markers. The greatest r of its trees at any step is how far they will be seen.
+Markers scattered_markers(const Parameters& world, const std::vector<TreePlace>& places);
+
+/// A node of this tree made at this step takes the markers within rho.
+double occupied_radius(const TreeParameters& tree, int step);
+
+/// Gives each marker to the nearest bud of any tree that sees it. Sets Q of each bud, 1 with a marker and 0
+/// without, and V, towards its markers.
+void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step);
+
+}  // namespace ramify::growth

@@ -1,0 +1,25 @@
+// One of the trees that grow together: its plant, and what its buds get in a step.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "growth/history.h"
+#include "growth/light_sums.h"
+#include "growth/plant.h"
+
+namespace ramify::growth {
+
+struct GrowingTree {
+  TreePlace place;
+  Plant plant;
+  std::optional<History> history;
+
+  // As last sensed, one entry a bud
+  std::vector<double> light;   // Q
+  std::vector<double> vigour;  // v
+  std::vector<Vec3f> space;    // V; with environment = space only
+  std::vector<LightSum> sums;  // one entry a node
+};
+
+}  // namespace ramify::growth

@@ -1,0 +1,125 @@
+// Marker points: the free space that buds compete for. A. Runions, B. Lane, P. Prusinkiewicz, Modeling trees
+// with a space colonization algorithm, 2007; Palubicki et al. 2009, 4.1. The points stand in cells of a dense
+// grid, so that what a bud costs depends on the markers near it, not on their number.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/geometry.h"
+#include "common/config/layer.h"
+
+namespace ramify {
+class Solid;
+}
+
+namespace ramify::growth {
+
+/// A bud that looks for space. Its number is its place in the span.
+struct Seeker {
+  Vec3 position;
+  Vec3 direction;           // unit
+  double radius = 0.0;      // how far it sees, metres
+  double min_cosine = 0.0;  // of the half angle of the cone in which it sees, about its direction
+};
+
+/// What a seeker has won.
+struct Claim {
+  std::uint32_t markers = 0;
+  // Normalized sum of the unit vectors to its markers; the seeker's own direction where there are none or
+  // they cancel out.
+  Vec3 direction{0.0};
+};
+
+class Markers {
+ public:
+  /// round(density * volume) markers, uniformly random in `solid`; `volume` in cubic metres, `density` per
+  /// cubic metre. Marker i depends on the solid, the seed and i alone. `reach`: the greatest distance,
+  /// metres, > 0, at which claim() will ever be asked. Throws RunError if there are too many markers or the
+  /// solid is too small a part of its box to find points inside. 20 to 60 bytes a marker: where there are few
+  /// in a large box, the cells are wider.
+  Markers(const Solid& solid, double volume, double density, std::uint64_t seed, double reach);
+
+  /// Takes away for good the markers within `radius` of these points. Costs each point the cells it touches.
+  void occupy(std::span<const Vec3> points, double radius);
+
+  /// Gives each marker to the nearest of the seekers that see it, ties to the lower number; a claim a seeker.
+  /// Every radius must be <= reach. The cone's edge belongs to it. Near is by the squared distance rounded to
+  /// a float. On all threads, with the same result for any number of them. A seeker costs the markers near
+  /// it, a barren one some nanoseconds. Fewer than 2^32 - 1 seekers. Not const for its working arrays only,
+  /// which are kept from call to call: some 100 bytes a seeker.
+  void claim(std::span<const Seeker> seekers, std::vector<Claim>& claims);
+
+  /// Whether no marker is left within `reach` of the point: then there never will be one again. One lookup
+  /// in a table; may say false where a closer look would say true.
+  bool is_barren(const Vec3& point) const;
+
+  /// How many are left.
+  std::size_t count() const { return count_; }
+
+  /// Those that are left.
+  PointLayer layer() const;
+
+ private:
+  /// Its markers, from begin to before end. Those taken away stand between end and the next cell's begin.
+  struct Cell {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+
+    bool is_empty() const { return begin == end; }
+  };
+  struct Cone;
+  struct View;
+
+  void lay_out_cells(double marker_count);
+  void sort_into_cells(std::span<const Vec3f> offsets);
+  void remove_within(const Vec3& point, double radius);
+  void add_to_neighbourhood(const Coord& cell, std::uint8_t amount);
+  void sort_into_bricks(std::span<const Seeker> seekers, std::vector<Claim>& claims);
+  void find_candidates(const Vec3& from_low, const Cone& cone, std::vector<std::uint32_t>& candidates) const;
+  std::uint32_t contend(const Vec3& from_low, std::uint32_t number, const Cone& cone,
+                        std::span<const std::uint32_t> candidates, std::vector<std::uint32_t>& won);
+  Claim collect(const Seeker& seeker, std::uint32_t number, std::span<const std::uint32_t> won);
+
+  /// From the box's low corner to marker i.
+  Vec3 offset(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+
+  /// The nearest, for an offset outside.
+  Coord cell_of(const Vec3& offset) const {
+    return Coord(glm::clamp(offset * inverse_edge_, Vec3(0.0), last_cell_));
+  }
+
+  std::size_t index_of(const Coord& cell) const {
+    return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size_.y) +
+            static_cast<std::size_t>(cell.y)) *
+               static_cast<std::size_t>(size_.x) +
+           static_cast<std::size_t>(cell.x);
+  }
+
+  Box box_;  // of the solid
+  Vec3 box_size_{0.0};
+  double reach_;         // metres
+  double square_reach_;  // and a little more
+  double edge_ = 1.0;    // of a cell, metres
+  double inverse_edge_ = 1.0;
+  Coord size_{1};  // cells along each axis
+  Vec3 last_cell_{0.0};
+  int dilation_ = 1;  // so many cells are at least `reach` wide
+  std::size_t count_ = 0;
+
+  std::vector<Cell> cells_;               // x fastest
+  std::vector<std::uint8_t> neighbours_;  // how many cells within `dilation_` of a cell have markers
+  std::vector<float> x_, y_, z_;          // offsets of the markers, cell by cell
+  std::vector<std::uint64_t> best_;       // the best bid for each marker; kNoBid between calls
+
+  // Of the last claim
+  std::vector<std::uint32_t> brick_;             // of each seeker
+  std::vector<std::uint32_t> brick_end_;         // of each brick's seekers in `order_`
+  std::vector<std::uint32_t> order_;             // the seekers that are not barren, brick by brick
+  std::vector<Seeker> sorted_;                   // the same, themselves
+  std::vector<std::uint32_t> win_count_;         // how often each of them was the best so far
+  std::vector<std::vector<std::uint32_t>> won_;  // at which markers, by groups of seekers
+};
+
+}  // namespace ramify::growth

@@ -1,0 +1,27 @@
+// Shoots become part of the plant, and buds that waited too long leave it.
+#pragma once
+
+#include <vector>
+
+#include "growth/plant.h"
+#include "growth/shoots.h"
+
+namespace ramify::growth {
+
+/// Voxels in which something begins or ceases to cast shadow.
+struct CasterChanges {
+  std::vector<Coord> added;
+  std::vector<Coord> removed;
+};
+
+/// Adds traced shoots to the plant. The buds they grew from are spent; one that was blocked at once dies, for
+/// its light would draw resource for ever.
+void build_shoots(Plant& plant, const std::vector<Shoot>& shoots, const Traces& traces,
+                  const Parameters& world, const TreeParameters& tree, ShadowGrid& shadow, int step,
+                  CasterChanges& changes);
+
+/// Buds that have rested for bud_lifespan steps die.
+void abort_buds(Plant& plant, const Parameters& world, const TreeParameters& tree, const ShadowGrid& shadow,
+                int step, CasterChanges& changes);
+
+}  // namespace ramify::growth
