@@ -1,7 +1,6 @@
 // The growth engine: self-organizing trees after Palubicki et al. 2009.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,14 +13,15 @@ namespace ramify::growth {
 struct Engine {
   using Parameters = growth::Parameters;
   static constexpr std::string_view name = "growth";
-  static constexpr std::array<std::string_view, 2> layers = {"shadow", "markers"};
+  static std::vector<std::string> layers(const Parameters& parameters) {
+    return {parameters.environment == Environment::light ? "shadow" : "markers"};
+  }
 
   static int steps(const Parameters& parameters) { return parameters.steps; }
 
   static std::vector<std::string> check(const Parameters& parameters);
 
-  /// Layers: "shadow", the shadow field after the last step, and "markers", those that are left; neither is
-  /// where the environment has none. Progress: a call a step.
+  /// Layers: the shadow field after the last step, or the markers that are left. Progress: a call a step.
   static RunResult run(const Parameters& parameters, const RunContext& context);
 };
 

@@ -49,6 +49,9 @@ class LeafTable {
   std::uint32_t count() const { return static_cast<std::uint32_t>(buffers_.size()); }  // with the empty 0
 
   Shadow at(Site site) const { return buffers_[site / kLeafSize][site % kLeafSize]; }
+  void prefetch(Site site) const {
+    if (site >= kLeafSize) __builtin_prefetch(buffers_[site / kLeafSize] + site % kLeafSize);
+  }
 
  private:
   struct Hash {

@@ -3,6 +3,8 @@
 namespace ramify::growth {
 
 void sum_light(const Plant& plant, const std::vector<double>& light, std::vector<LightSum>& sums) {
+  // The tree grows: room for some steps at once.
+  if (sums.capacity() < plant.node_count()) sums.reserve(plant.node_count() + plant.node_count() / 2);
   sums.assign(plant.node_count(), {});
   for (std::size_t i = 0; i < plant.buds.size(); ++i) {
     const Bud& bud = plant.buds[i];

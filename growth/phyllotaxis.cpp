@@ -10,10 +10,10 @@ const double kNearlyAlongZ = std::cos(radians(10.0));
 
 constexpr double kHalfTurn = std::numbers::pi;
 
-Vec3 direction_at(const Frame& frame, double azimuth, double angle) {
-  const Vec3 outwards =
-      frame.reference * std::cos(azimuth) + glm::cross(frame.direction, frame.reference) * std::sin(azimuth);
-  return glm::normalize(frame.direction * std::cos(angle) + outwards * std::sin(angle));
+/// The perpendicular to the frame's direction at this azimuth.
+Vec3 outwards(const Frame& frame, double azimuth) {
+  return frame.reference * std::cos(azimuth) +
+         glm::cross(frame.direction, frame.reference) * std::sin(azimuth);
 }
 
 /// S4: the axis's direction turned left or right in the XY plane, a fair coin.
@@ -46,6 +46,8 @@ double node_azimuth(const TreeParameters& tree, const BudAngles& angles, std::ui
 
 BudAngles::BudAngles(const TreeParameters& tree, int step)
     : branching(radians(tree.branching_angle_deg.at(step))),
+      cosine(std::cos(branching)),
+      sine(std::sin(branching)),
       divergence(radians(tree.divergence_deg.at(step))),
       jitter(radians(tree.jitter_deg.at(step))) {}
 
@@ -68,15 +70,17 @@ void place_buds(const TreeParameters& tree, std::uint64_t seed, const BudAngles&
   };
   const double first_azimuth = node_azimuth(tree, angles, rank);
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const double angle = angles.branching + strayed();
+    const double stray = strayed();
     if (tree.phyllotaxis == Phyllotaxis::planar_random) {
-      const Vec3 planar = planar_direction(frame, random, angle);
+      const Vec3 planar = planar_direction(frame, random, angles.branching + stray);
       directions[i] = Vec3f(rotated(planar, frame.direction, strayed()));
       continue;
     }
     const double share = static_cast<double>(i) / static_cast<double>(directions.size());
-    const double azimuth = first_azimuth + 2.0 * kHalfTurn * share + strayed();
-    directions[i] = Vec3f(direction_at(frame, azimuth, angle));
+    const Vec3 side = outwards(frame, first_azimuth + 2.0 * kHalfTurn * share + strayed());
+    const double cosine = stray == 0.0 ? angles.cosine : std::cos(angles.branching + stray);
+    const double sine = stray == 0.0 ? angles.sine : std::sin(angles.branching + stray);
+    directions[i] = Vec3f(frame.direction * cosine + side * sine);
   }
 }
 

@@ -19,6 +19,8 @@ struct BudAngles {
   BudAngles(const TreeParameters& tree, int step);
 
   double branching;
+  double cosine;  // of branching
+  double sine;    // likewise
   double divergence;
   double jitter;
 };

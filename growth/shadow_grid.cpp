@@ -3,8 +3,10 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <limits>
+#include <map>
+#include <tuple>
 
 #include "common/base/parallel.h"
 
@@ -14,11 +16,11 @@ namespace {
 using Leaf = openvdb::Int32Tree::LeafNodeType;
 static_assert(Leaf::DIM == kLeafEdge && Leaf::SIZE == kLeafSize);
 
-// Casters that are worth more than one thread.
-constexpr std::size_t kMinParallelCasters = 512;
+// Casters that are worth a task of their own: fewer are done on one thread.
+constexpr std::size_t kCastersPerTask = 1024;
 
-// Leaves of one x that the widest stencil falls in: q_max 32, sheared by the lowest sun.
-constexpr std::size_t kMaxWindow = 256;
+// More tasks than threads, that all are done at about the same time; each has its own slab of the world.
+constexpr std::size_t kMaxTasks = 16;
 
 /// Casters that stand in one leaf.
 struct Group {
@@ -29,7 +31,8 @@ struct Group {
   std::size_t end = 0;
 };
 
-/// Casters sorted by leaf, and leaves by x: what is added one after the other lies near each other.
+/// Casters sorted by leaf, and leaves along x, z and y: what is added one after the other lies near each
+/// other.
 struct Groups {
   std::vector<Group> groups;
   std::vector<Coord> casters;
@@ -50,8 +53,9 @@ Groups grouped(std::span<const Coord> casters, const std::vector<std::uint32_t>&
     group.high = glm::max(group.high, casters[i]);
     ++group.end;  // a count for now
   }
-  std::stable_sort(result.groups.begin(), result.groups.end(),
-                   [](const Group& a, const Group& b) { return a.leaf.x < b.leaf.x; });
+  std::stable_sort(result.groups.begin(), result.groups.end(), [](const Group& a, const Group& b) {
+    return std::tie(a.leaf.y, a.leaf.z, a.leaf.x) < std::tie(b.leaf.y, b.leaf.z, b.leaf.x);
+  });
   std::size_t next = 0;
   for (std::uint32_t i = 0; i < result.groups.size(); ++i) {
     Group& group = result.groups[i];
@@ -67,53 +71,97 @@ Groups grouped(std::span<const Coord> casters, const std::vector<std::uint32_t>&
   return result;
 }
 
-/// The x of all leaves that shadows fall in, rising.
-std::vector<int> columns_of(const std::vector<Group>& groups, const ShadowStencil& stencil) {
-  std::vector<int> columns;
-  for (const Group& group : groups) {
-    const int last = leaf_of(group.high + stencil.high()).x;
-    for (int x = leaf_of(group.low + stencil.low()).x; x <= last; ++x) columns.push_back(x);
+/// Where the slabs of the tasks end: each has about as many casters. The last has no end.
+std::vector<int> slab_ends(const std::vector<Group>& groups, std::size_t caster_count) {
+  const std::size_t tasks = std::clamp<std::size_t>(caster_count / kCastersPerTask, 1, kMaxTasks);
+  std::map<int, std::size_t> casters_at;  // by x of their leaf
+  for (const Group& group : groups) casters_at[group.leaf.x] += group.end - group.begin;
+  std::vector<int> ends;
+  std::size_t count = 0;
+  for (const auto& [x, casters] : casters_at) {
+    count += casters;
+    if (count * tasks >= caster_count * (ends.size() + 1)) ends.push_back(x + 1);
   }
-  std::sort(columns.begin(), columns.end());
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  return columns;
+  ends.back() = std::numeric_limits<int>::max();
+  return ends;
 }
 
-/// Eight voxels at once, each added to or taken from. Unsigned, so that a sum past the largest shadow wraps
-/// instead of being undefined; by way of copies, so that the compiler may do all eight together.
+/// The leaves that the shadows of a group fall in.
+class Window {
+ public:
+  /// All of them must be there.
+  void open(const LeafTable& leaves, const Coord& first, const Coord& last) {
+    first_ = first;
+    size_ = last - first + 1;
+    buffers_.clear();
+    for (int x = first.x; x <= last.x; ++x) {
+      for (int y = first.y; y <= last.y; ++y) {
+        for (int z = first.z; z <= last.z; ++z) buffers_.push_back(leaves.buffer(leaves.find({x, y, z})));
+      }
+    }
+  }
+
+  /// The leaf that holds `voxel`; those beyond it along z follow.
+  Shadow* const* leaf(const Coord& voxel) const {
+    const Coord c = leaf_of(voxel) - first_;
+    return buffers_.data() + (c.x * size_.y + c.y) * size_.z + c.z;
+  }
+
+ private:
+  Coord first_{0};
+  Coord size_{0};
+  std::vector<Shadow*> buffers_;
+};
+
+// Voxels that are added to in one instruction. Unsigned, so that a sum past the largest shadow wraps instead
+// of being undefined. The compiler does not find this by itself: it cannot know that shadows and amounts are
+// apart.
+using Four [[gnu::vector_size(16)]] = std::uint32_t;
+
+/// A leaf's edge, each voxel added to or taken from.
 template <bool is_cast>
 void add_edge(Shadow* values, const Shadow* amounts) {
-  std::array<std::uint32_t, kLeafEdge> sum;
-  std::array<std::uint32_t, kLeafEdge> amount;
-  std::memcpy(sum.data(), values, sizeof sum);
-  std::memcpy(amount.data(), amounts, sizeof amount);
-  for (std::size_t i = 0; i < kLeafEdge; ++i) sum[i] = is_cast ? sum[i] + amount[i] : sum[i] - amount[i];
-  std::memcpy(values, sum.data(), sizeof sum);
+  for (int i = 0; i < kLeafEdge; i += 4) {
+    Four sum;
+    Four amount;
+    std::memcpy(&sum, values + i, sizeof sum);
+    std::memcpy(&amount, amounts + i, sizeof amount);
+    sum = is_cast ? sum + amount : sum - amount;
+    std::memcpy(values + i, &sum, sizeof sum);
+  }
 }
 
-/// Adds what a caster's shadow has in the leaves of one x, or takes it away. All leaves must be there.
-template <bool is_cast>
-void add_slice(const ShadowStencil& stencil, const Coord& caster, int leaf_x, const LeafTable& leaves) {
-  const Coord low = leaf_of(caster + stencil.low());
-  const int last_y = leaf_of(caster + stencil.high()).y;
-  const int wide = stencil.leaves_wide();
-  std::array<Shadow*, kMaxWindow> window;
-  std::size_t count = 0;
-  for (int y = low.y; y <= last_y; ++y) {
-    for (int z = low.z; z < low.z + wide; ++z) window[count++] = leaves.buffer(leaves.find({leaf_x, y, z}));
+/// Adds the rows of a level that lie in the leaves of one x, `first` being the first row's place and amounts,
+/// or takes them away. `wide` leaves side by side, known to the compiler where `known_wide` is not 0.
+template <bool is_cast, int known_wide>
+void add_rows(Shadow* const* leaves, std::uint32_t place, const Shadow* const* amounts, int count, int wide) {
+  constexpr std::uint32_t kNextRow = kLeafEdge * kLeafEdge;
+  for (int i = 0; i < count; ++i) {
+    for (int z = 0; z < (known_wide > 0 ? known_wide : wide); ++z) {
+      add_edge<is_cast>(leaves[z] + place, amounts[i] + z * kLeafEdge);
+    }
+    place += kNextRow;
   }
+}
 
-  const int place = caster.z & (kLeafEdge - 1);
-  const int low_x = leaf_x * kLeafEdge;
+/// Adds what a caster's shadow has from x = `begin` to before `end`, or takes it away.
+template <bool is_cast>
+void add_shadow(const ShadowStencil& stencil, const Coord& caster, int begin, int end, const Window& window) {
+  const int z = caster.z + stencil.low().z;
+  const int wide = stencil.leaves_wide();
   for (const ShadowStencil::Level& level : stencil.levels()) {
     const int y = caster.y + level.y;
-    Shadow* const* buffers = window.data() + ((y >> kLeafShift) - low.y) * wide;
     const int first_x = caster.x + level.first_x;
-    const int end_x = std::min(first_x + static_cast<int>(level.patterns.size()), low_x + kLeafEdge);
-    for (int x = std::max(first_x, low_x); x < end_x; ++x) {
-      const std::uint32_t offset = place_in_leaf({x, y, 0});
-      const Shadow* amounts = stencil.amounts(level.patterns[static_cast<std::size_t>(x - first_x)], place);
-      for (int z = 0; z < wide; ++z) add_edge<is_cast>(buffers[z] + offset, amounts + z * kLeafEdge);
+    const int end_x = std::min(first_x + level.row_count(), end);
+    const Shadow* const* amounts = level.amounts_at(caster.z & (kLeafEdge - 1));
+    int x = std::max(first_x, begin);
+    while (x < end_x) {
+      const int stop = std::min(end_x, (x | (kLeafEdge - 1)) + 1);
+      Shadow* const* leaves = window.leaf({x, y, z});
+      const std::uint32_t place = place_in_leaf({x, y, 0});
+      wide == 2 ? add_rows<is_cast, 2>(leaves, place, amounts + (x - first_x), stop - x, wide)
+                : add_rows<is_cast, 0>(leaves, place, amounts + (x - first_x), stop - x, wide);
+      x = stop;
     }
   }
 }
@@ -159,28 +207,26 @@ void ShadowGrid::add(std::span<const Coord> casters) {
   std::vector<std::uint32_t> leaf_of_caster(casters.size());
   for (std::size_t i = 0; i < casters.size(); ++i) leaf_of_caster[i] = touch(leaf_of(casters[i]));
   const Groups groups = grouped(casters, leaf_of_caster, leaves_.count());
-  for (const Group& group : groups.groups) {
+  const auto first_leaf = [&](const Group& group) { return leaf_of(group.low + stencil_.low()); };
+  const auto last_leaf = [&](const Group& group) {
     Coord last = leaf_of(group.high + stencil_.high());
     last.z = leaf_of(group.high + stencil_.low()).z + stencil_.leaves_wide() - 1;
-    touch_all(leaf_of(group.low + stencil_.low()), last);
-  }
+    return last;
+  };
+  for (const Group& group : groups.groups) touch_all(first_leaf(group), last_leaf(group));
 
-  // Each thread has columns of leaves of its own: no two write to one voxel.
-  const std::vector<int> columns = columns_of(groups.groups, stencil_);
-  const std::size_t grain = casters.size() < kMinParallelCasters ? columns.size() : 1;
-  parallel_for(columns.size(), grain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const int x = columns[i] * kLeafEdge;
-      const int first_leaf = leaf_of(Coord(x) - stencil_.high()).x;
-      const int last_leaf = leaf_of(Coord(x + kLeafEdge - 1) - stencil_.low()).x;
-      auto group = std::lower_bound(groups.groups.begin(), groups.groups.end(), first_leaf,
-                                    [](const Group& g, int leaf_x) { return g.leaf.x < leaf_x; });
-      for (; group != groups.groups.end() && group->leaf.x <= last_leaf; ++group) {
-        for (std::size_t j = group->begin; j < group->end; ++j) {
-          const Coord& caster = groups.casters[j];
-          const bool is_reached =
-              caster.x + stencil_.low().x < x + kLeafEdge && caster.x + stencil_.high().x >= x;
-          if (is_reached) add_slice<is_cast>(stencil_, caster, columns[i], leaves_);
+  // Each task has a slab of leaves of its own: no two write to one voxel.
+  const std::vector<int> ends = slab_ends(groups.groups, casters.size());
+  parallel_for(ends.size(), 1, [&](std::size_t first_task, std::size_t last_task) {
+    Window window;
+    for (std::size_t task = first_task; task < last_task; ++task) {
+      const int begin = task == 0 ? std::numeric_limits<int>::min() : ends[task - 1] * kLeafEdge;
+      const int end = task + 1 == ends.size() ? std::numeric_limits<int>::max() : ends[task] * kLeafEdge;
+      for (const Group& group : groups.groups) {
+        if (group.high.x + stencil_.high().x < begin || group.low.x + stencil_.low().x >= end) continue;
+        window.open(leaves_, first_leaf(group), last_leaf(group));
+        for (std::size_t i = group.begin; i < group.end; ++i) {
+          add_shadow<is_cast>(stencil_, groups.casters[i], begin, end, window);
         }
       }
     }

@@ -45,6 +45,7 @@ class ShadowGrid {
     return leaf == 0 ? 0 : leaves_.buffer(leaf)[place_in_leaf(voxel)];
   }
   Shadow at(Site site) const { return leaves_.at(site); }
+  void prefetch(Site site) const { leaves_.prefetch(site); }
   LeafReader reader() const { return LeafReader(leaves_); }
 
   /// For quick reading: valid as long as the grid.

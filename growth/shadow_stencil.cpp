@@ -59,29 +59,40 @@ ShadowStencil::ShadowStencil(const Penumbra& penumbra) {
   }
   leaves_wide_ = (high_.z - low_.z + kLeafEdge - 1) / kLeafEdge + 1;
 
-  // Rows that differ in neither amounts nor z share their patterns.
-  std::vector<std::pair<int, std::vector<Shadow>>> known;
+  // Rows that differ in neither amounts nor z share their patterns, one for each place.
+  std::vector<const Row*> known;
+  std::vector<std::size_t> pattern_of_row;
   for (const Row& row : rows) {
-    const std::pair<int, std::vector<Shadow>> shape{row.first.z, row.amounts};
-    const auto found = std::find(known.begin(), known.end(), shape);
-    const auto number = static_cast<std::uint32_t>(found - known.begin()) * kLeafEdge;
-    if (found == known.end()) known.push_back(shape);
-    if (levels_.empty() || levels_.back().y != row.first.y) levels_.push_back({row.first.y, row.first.x, {}});
-    levels_.back().patterns.push_back(number);
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Row* other) {
+      return other->first.z == row.first.z && other->amounts == row.amounts;
+    });
+    pattern_of_row.push_back(static_cast<std::size_t>(found - known.begin()) * kLeafEdge);
+    if (found == known.end()) known.push_back(&row);
   }
-
   const auto width = static_cast<std::size_t>(leaves_wide_ * kLeafEdge);
   amounts_.assign(known.size() * kLeafEdge * width, 0);
-  for (std::uint32_t i = 0; i < known.size(); ++i) {
-    const auto& [first_z, amounts] = known[i];
+  for (std::size_t i = 0; i < known.size(); ++i) {
     for (int place = 0; place < kLeafEdge; ++place) {
-      const std::size_t pattern = (std::size_t{i} * kLeafEdge + static_cast<std::size_t>(place)) * width;
       // The stencil of a caster in this place begins so far into its first leaf.
       const int begin = (place + low_.z) & (kLeafEdge - 1);
-      const auto offset = static_cast<std::size_t>(begin + first_z - low_.z);
-      std::copy(amounts.begin(), amounts.end(),
-                amounts_.begin() + static_cast<std::ptrdiff_t>(pattern + offset));
+      const std::size_t pattern = (i * kLeafEdge + static_cast<std::size_t>(place)) * width;
+      const auto offset = pattern + static_cast<std::size_t>(begin + known[i]->first.z - low_.z);
+      std::copy(known[i]->amounts.begin(), known[i]->amounts.end(),
+                amounts_.begin() + static_cast<std::ptrdiff_t>(offset));
     }
+  }
+
+  for (std::size_t first = 0; first < rows.size();) {
+    std::size_t end = first;
+    while (end < rows.size() && rows[end].first.y == rows[first].first.y) ++end;
+    Level level{rows[first].first.y, rows[first].first.x, {}};
+    for (std::size_t place = 0; place < kLeafEdge; ++place) {
+      for (std::size_t i = first; i < end; ++i) {
+        level.amounts.push_back(amounts_.data() + (pattern_of_row[i] + place) * width);
+      }
+    }
+    levels_.push_back(std::move(level));
+    first = end;
   }
 }
 

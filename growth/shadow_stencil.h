@@ -27,12 +27,20 @@ struct Penumbra {
 class ShadowStencil {
  public:
   explicit ShadowStencil(const Penumbra& penumbra);
+  ShadowStencil(const ShadowStencil&) = delete;
+  ShadowStencil& operator=(const ShadowStencil&) = delete;
 
   /// Rows of one y, at consecutive x.
   struct Level {
-    int y = 0;                            // relative to the caster
-    int first_x = 0;                      // likewise
-    std::vector<std::uint32_t> patterns;  // of each row, the first of its 8
+    int y = 0;                           // relative to the caster
+    int first_x = 0;                     // likewise
+    std::vector<const Shadow*> amounts;  // of each row, for each place in turn
+
+    int row_count() const { return static_cast<int>(amounts.size()) / kLeafEdge; }
+
+    /// Of each row, leaves_wide() * 8 amounts for a caster at this place along a leaf's edge: the first of
+    /// them is for the voxel where the leaf begins that the stencil begins in.
+    const Shadow* const* amounts_at(int place) const { return amounts.data() + place * row_count(); }
   };
 
   const std::vector<Level>& levels() const { return levels_; }
@@ -44,12 +52,6 @@ class ShadowStencil {
   /// Leaves along z that the stencil of a caster may fall in, whatever its place.
   int leaves_wide() const { return leaves_wide_; }
 
-  /// leaves_wide() * 8 amounts, the first of them in the leaf where the stencil begins.
-  const Shadow* amounts(std::uint32_t pattern, int place) const {
-    return amounts_.data() +
-           (pattern + static_cast<std::uint32_t>(place)) * static_cast<std::size_t>(leaves_wide_ * kLeafEdge);
-  }
-
   /// What a caster adds to its own voxel.
   Shadow own_shadow() const { return own_shadow_; }
 
@@ -58,7 +60,7 @@ class ShadowStencil {
   static std::vector<Row> rows_of(const Penumbra& penumbra);
 
   std::vector<Level> levels_;
-  std::vector<Shadow> amounts_;
+  std::vector<Shadow> amounts_;  // that the levels point to
   Coord low_{0};
   Coord high_{0};
   int leaves_wide_ = 1;

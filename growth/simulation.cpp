@@ -14,7 +14,7 @@ namespace ramify::growth {
 namespace {
 
 // Holes are closed when they are this share of an array: copying often costs more than skipping them.
-constexpr double kHoleShare = 0.125;
+constexpr double kHoleShare = 0.2;
 
 Penumbra penumbra_of(const Parameters& world) {
   return {.model = world.shadow,
