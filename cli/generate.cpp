@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <CLI/Option.hpp>
@@ -33,17 +34,18 @@ struct GenerateFlags {
   RunFlags running;
 };
 
-std::vector<Output> outputs_of(const GenerateFlags& flags, const AnyEngine& engine) {
+std::vector<Output> outputs_of(const GenerateFlags& flags, const Job& job) {
   std::vector<Output> outputs;
   for (const std::string& path : flags.outputs) outputs.push_back(output_of(path));
   if (!flags.shadow.empty()) outputs.push_back({OutputForm::shadow_grid, flags.shadow});
   if (!flags.graph.empty()) outputs.push_back({OutputForm::graph, flags.graph});
+  const std::vector<std::string> layers = job.engine->layers(job.parameters.get());
   std::set<std::filesystem::path> seen;
   for (const Output& output : outputs) {
     const std::string layer = output.layer();
-    if (!layer.empty() &&
-        std::find(engine.layers.begin(), engine.layers.end(), layer) == engine.layers.end()) {
-      throw InputError(fmt::format("the engine '{}' has no {}", engine.name, layer));
+    if (!layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end()) {
+      throw InputError(fmt::format("{}: {} with this config makes no {} (it makes: {})", output.path.string(),
+                                   job.engine->name, layer, fmt::join(layers, ", ")));
     }
     for (const std::filesystem::path& file : output.files()) {
       require_writable(file);
@@ -142,13 +144,18 @@ Skeleton wanted_state(Skeleton skeleton, const GenerateFlags& flags, const Job& 
   return cut_at_step(skeleton, static_cast<std::uint32_t>(flags.at_step), flags.with_history);
 }
 
+void set_steps(Job& job, int steps) {
+  Origins origins;
+  assign(job_table(*job.engine), &job, "steps", std::to_string(steps), "--at-step", origins);
+}
+
 void generate(const GenerateFlags& flags, const Session& session) {
-  const Job job = load_job(session.registry, flags.config, flags.configuring.overrides());
+  Job job = load_job(session.registry, flags.config, flags.configuring.overrides());
   if (flags.at_step > job.steps()) {
     throw InputError(
         fmt::format("--at-step: {} is after the last step (0 to {})", flags.at_step, job.steps()));
   }
-  const std::vector<Output> outputs = outputs_of(flags, *job.engine);
+  const std::vector<Output> outputs = outputs_of(flags, job);
   RunResult run = run_with_progress(job, context_for(flags, outputs, session.stop), flags.running);
   run.skeleton = wanted_state(std::move(run.skeleton), flags, job);
 
@@ -161,6 +168,7 @@ void generate(const GenerateFlags& flags, const Session& session) {
     mesh = build_mesh(living(run.skeleton), job.mesher);
     watch.lap("mesh");
   }
+  if (flags.at_step > 0) set_steps(job, flags.at_step);  // files say how to make what is in them
   const Results results{job, run, mesh};
   OutputFiles files;
   for (const Output& output : outputs) write_output(output, results, files);

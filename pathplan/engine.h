@@ -3,7 +3,6 @@
 // L. Xu and D. Mould, A procedural method for irregular tree models, Computers & Graphics 36(8), 2012.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +15,7 @@ namespace ramify::pathplan {
 struct Engine {
   using Parameters = pathplan::Parameters;
   static constexpr std::string_view name = "pathplan";
-  static constexpr std::array<std::string_view, 2> layers = {"graph", "endpoints"};
+  static std::vector<std::string> layers(const Parameters&) { return {"graph", "endpoints"}; }
 
   /// How many levels are planned.
   static int steps(const Parameters& parameters) { return static_cast<int>(planned_levels(parameters)); }

@@ -60,12 +60,12 @@ struct RunResult {
 
 /// An engine. `seed` and `steps` are members of its Parameters and rows of its table (is_top_level).
 /// The other rows stand in the config's table that has the engine's name. steps() is how many steps, or
-/// levels, a run will take. check() throws ConfigError for what no single range can say, with keys below the
-/// engine's table, and returns warnings.
+/// levels, a run will take; layers() names the layers it can make. check() throws ConfigError for what no
+/// single range can say, with keys below the engine's table, and returns warnings.
 template <class E>
 concept TreeEngine = requires(const typename E::Parameters& parameters, const RunContext& context) {
   { E::name } -> std::convertible_to<std::string_view>;
-  { E::layers[0] } -> std::convertible_to<std::string_view>;
+  { E::layers(parameters) } -> std::same_as<std::vector<std::string>>;
   { E::Parameters::fields() } -> std::same_as<const Table&>;
   { E::check(parameters) } -> std::same_as<std::vector<std::string>>;
   { E::run(parameters, context) } -> std::same_as<RunResult>;
@@ -75,13 +75,13 @@ concept TreeEngine = requires(const typename E::Parameters& parameters, const Ru
 /// An engine with its types erased; parameters go by address.
 struct AnyEngine {
   std::string name;
-  Table top_fields;                 // rows that stand at the top of a config: seed, steps
-  Table fields;                     // the others, in the table that has the engine's name
-  std::vector<std::string> layers;  // that it can make
+  Table top_fields;  // rows that stand at the top of a config: seed, steps
+  Table fields;      // the others, in the table that has the engine's name
   std::function<std::shared_ptr<void>()> make_parameters;
   std::function<std::shared_ptr<void>(const void* parameters)> copy_parameters;
   std::function<std::uint64_t(const void* parameters)> seed;
   std::function<int(const void* parameters)> steps;
+  std::function<std::vector<std::string>(const void* parameters)> layers;
   std::function<std::vector<std::string>(const void* parameters)> check;
   std::function<RunResult(const void* parameters, const RunContext&)> run;
 };
@@ -93,7 +93,7 @@ class EngineRegistry {
     using P = typename E::Parameters;
     AnyEngine engine;
     engine.name = E::name;
-    engine.layers.assign(E::layers.begin(), E::layers.end());
+    engine.layers = [](const void* p) { return E::layers(*static_cast<const P*>(p)); };
     for (const FieldRow& row : P::fields()) {
       (row.info.is_top_level ? engine.top_fields : engine.fields).push_back(row);
     }

@@ -144,6 +144,8 @@ class Reader {
     if (is_number) number = std::stoul(std::string(name));
     const std::string list_path = path;
     path = joined(path, name);
+    if (count == 0)
+      fail(node, path, fmt::format("{} is empty (set the whole list: {}=[...])", list_path, list_path));
     if (number < 1 || number > count) {
       fail(node, path, fmt::format("'{}' is no item of {} (1 to {})", name, list_path, count));
     }
@@ -355,7 +357,9 @@ toml::table parsed_value(std::string_view value, const std::string& where, std::
   try {
     return toml::parse(fmt::format("value = {}", value));
   } catch (const toml::parse_error&) {
-    if (!value.empty() && std::all_of(value.begin(), value.end(), is_word_character)) {
+    // .3 is meant as a number, which TOML writes 0.3.
+    const bool is_number = value.size() > 1 && value[0] == '.' && value[1] >= '0' && value[1] <= '9';
+    if (!value.empty() && !is_number && std::all_of(value.begin(), value.end(), is_word_character)) {
       return toml::table{{"value", std::string(value)}};
     }
     throw ConfigError(where, std::string(key), fmt::format("'{}' is no TOML value", value));

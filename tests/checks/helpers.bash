@@ -12,6 +12,11 @@ trap 'rm -rf "$work"' EXIT
 # shellcheck disable=SC2034 # read by the checks
 one_tree_of_each_engine=(s4-improved xm12-fig5)
 
+# The presets whose files foreign programs read. The mesh of the largest has some gigabytes and nothing that others have not.
+presets() {
+  "$program" presets --names | grep -v '^p09-640k$'
+}
+
 # need COMMAND: ends the check where the command is not installed.
 need() {
   command -v "$1" > /dev/null || skip "$1"

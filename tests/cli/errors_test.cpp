@@ -92,9 +92,9 @@ TEST_CASE("errors: outputs that cannot be are found before the engine starts") {
   check_failure(run_program("generate s4-fig6 -o a.csv -o folder.glb", where), 1,
                 "folder.glb: is a folder, not a file\n");
   check_failure(run_program("generate xm12-fig5 --shadow a.vdb", where), 2,
-                "the engine 'pathplan' has no shadow\n");
+                "a.vdb: pathplan with this config makes no shadow (it makes: graph, endpoints)\n");
   check_failure(run_program("generate s4-fig6 --graph a.csv", where), 2,
-                "the engine 'growth' has no graph\n");
+                "a.csv: growth with this config makes no graph (it makes: shadow)\n");
   check_failure(run_program("generate s4-fig6 --at-step 9 -o a.glb", where), 2,
                 "--at-step: 9 is after the last step (0 to 5)\n");
   check_failure(run_program("generate xm12-fig5 --at-step 1 -o a.glb", where), 2,

@@ -127,21 +127,32 @@ TEST_CASE("generate: the config inside a GLB makes the same tree again") {
   CHECK(read_file(folder.file("a.csv")) == read_file(folder.file("b.csv")));
 }
 
-TEST_CASE("generate: --at-step K is a run of K steps, but for light and vigour") {
+TEST_CASE("generate: --at-step K is a run of K steps, byte for byte, but for light and vigour") {
   const Folder folder;
   const std::string where = folder.path().string();
-  REQUIRE(run_program("generate s4-fig8 --at-step 6 -o cut.csv -o cut.ply", where).code == 0);
-  REQUIRE(run_program("generate s4-fig8 --steps 6 -o run.csv -o run.ply", where).code == 0);
-  const auto without_light = [&](const std::string& file) {
-    return run_shell("cut -d, -f1-15,18 " + file, where).out;
-  };
-  CHECK(without_light("cut.csv") == without_light("run.csv"));
-  // The header of a .ply tells the steps of the run; what follows is the mesh.
-  const auto body = [&](const std::string& file) {
-    const std::string bytes = read_file(folder.file(file));
-    return bytes.substr(bytes.find("end_header"));
-  };
-  CHECK(body("cut.ply") == body("run.ply"));
+  for (const std::string preset : {"s4-fig8", "p09-fig7-50 --set growth.shed_threshold=0.3"}) {
+    REQUIRE(run_program("generate " + preset + " --at-step 6 -o cut.csv -o cut.ply -o cut.glb", where).code ==
+            0);
+    REQUIRE(run_program("generate " + preset + " --steps 6 -o run.csv -o run.ply -o run.glb", where).code ==
+            0);
+    const auto without_light = [&](const std::string& file) {
+      return run_shell("cut -d, -f1-15,18 " + file, where).out;
+    };
+    CHECK(without_light("cut.csv") == without_light("run.csv"));
+    CHECK(run_shell("tail -n +2 cut.csv | cut -d, -f16,17 | sort -u", where).out == ",\n");
+    for (const std::string ending : {".ply", ".glb"}) {
+      CHECK(read_file(folder.file("cut" + ending)) == read_file(folder.file("run" + ending)));
+    }
+  }
+}
+
+TEST_CASE("generate: trees that compete for space have markers and no shadow") {
+  const Folder folder;
+  const Outcome outcome = run_program("generate p09-fig7-50 --set growth.environment=space --shadow a.vdb",
+                                      folder.path().string());
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err == "ramify: a.vdb: growth with this config makes no shadow (it makes: markers)\n");
+  CHECK(folder.count() == 0);
 }
 
 TEST_CASE("generate: --history writes shed internodes too") {

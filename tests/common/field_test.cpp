@@ -224,6 +224,7 @@ TEST_CASE("set: mistakes name the flag") {
         "--set: height.x: 'height' holds no keys (a number, more than 0 to 10)");
   CHECK(set_error("leaves.3.width", "1") == "--set: leaves.3: '3' is no item of leaves (1 to 2)");
   CHECK(set_error("leaves.0.width", "1") == "--set: leaves.0: '0' is no item of leaves (1 to 2)");
+  CHECK(set_error("height", ".3") == "--set: height: '.3' is no TOML value");
   CHECK(set_error("leaves.x.width", "1") == "--set: leaves.x: 'x' is no item of leaves (1 to 2)");
   CHECK(set_error("leaf.", "1").rfind("--set: leaf", 0) == 0);
   CHECK(set_error("", "1").rfind("--set: ", 0) == 0);
