@@ -1,10 +1,7 @@
-#include "common/base/parallel.h"
 #include "growth/allocation.h"
 
 namespace ramify::growth {
 namespace {
-
-constexpr std::size_t kBudsPerTask = 16384;
 
 /// What the sides of a node ask for.
 struct Sides {
@@ -60,19 +57,17 @@ void share(const Plant& plant, double at_root, double lambda, const Demands& dem
     return sums[node].rate * (is_main ? weight.main : weight.lateral) * demand;
   };
 
-  set_rate(0, at_root);
-  for (std::size_t node = 1; node < plant.node_count(); ++node) {
-    const std::uint32_t parent = plant.parent[node];
-    if (parent == kNone) continue;
-    set_rate(node, passed(parent, !plant.founds_axis[node], of_node(node)));
-  }
   vigour.resize(plant.buds.size());
-  parallel_for(plant.buds.size(), kBudsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+  std::size_t i = 0;
+  for (std::size_t node = 0; node < plant.node_count(); ++node) {
+    const std::uint32_t parent = plant.parent[node];
+    if (node == 0) set_rate(node, at_root);
+    if (parent != kNone) set_rate(node, passed(parent, !plant.founds_axis[node], of_node(node)));
+    for (; i < plant.buds.size() && (plant.buds[i].is_dead() || plant.buds[i].node == node); ++i) {
       const Bud& bud = plant.buds[i];
-      vigour[i] = bud.is_dead() ? 0.0 : passed(bud.node, bud.is_terminal, of_bud(i));
+      vigour[i] = bud.is_dead() ? 0.0 : passed(node, bud.is_terminal, of_bud(i));
     }
-  });
+  }
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ RunResult Engine::run(const Parameters& parameters, const RunContext& context) {
   }
 
   simulation.sense();  // so that the youngest internodes have light and vigour too
-  if (context.wants("shadow") && !simulation.markers()) result.layers.push_back({"shadow", simulation.shadow().layer()});
+  if (context.wants("shadow") && !simulation.markers())
+    result.layers.push_back({"shadow", simulation.shadow().layer()});
   if (context.wants("markers") && simulation.markers()) {
     result.layers.push_back({"markers", simulation.markers()->layer()});
   }

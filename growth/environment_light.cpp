@@ -97,6 +97,7 @@ Vec3 LightSeeker::darkest_free(const Vec3& apex, const Vec3& axis) const {
     for (int y = low.y; y <= high.y; ++y) {
       const double dy = y - place.y;
       const double square_xy = dx * dx + dy * dy;
+      if (square_xy > radius_ * radius_) continue;
       const double along_xy = dx * axis.x + dy * axis.y;
       for (int z = low.z; z <= high.z; ++z) {
         const double dz = z - place.z;

@@ -3,20 +3,22 @@
 namespace ramify::growth {
 
 void sum_light(const Plant& plant, const std::vector<double>& light, std::vector<LightSum>& sums) {
-  // The tree grows: room for some steps at once.
-  if (sums.capacity() < plant.node_count()) sums.reserve(plant.node_count() + plant.node_count() / 2);
-  sums.assign(plant.node_count(), {});
-  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
-    const Bud& bud = plant.buds[i];
-    if (bud.is_dead()) continue;
-    LightSum& sum = sums[bud.node];
-    (bud.is_terminal ? sum.main : sum.lateral) += light[i];
-    ++sum.buds;
+  if (sums.capacity() < plant.node_count()) {
+    // The tree grows: room for some steps at once, and no copy of what is done with.
+    std::vector<LightSum>().swap(sums);
+    sums.reserve(plant.node_count() + plant.node_count() / 2);
   }
-  for (std::size_t node = plant.node_count(); node-- > 1;) {
+  sums.assign(plant.node_count(), {});
+  std::size_t bud = plant.buds.size();
+  for (std::size_t node = plant.node_count(); node-- > 0;) {
+    LightSum& own = sums[node];
+    for (; bud > 0 && plant.buds[bud - 1].node >= node; --bud) {
+      if (plant.buds[bud - 1].is_dead()) continue;
+      (plant.buds[bud - 1].is_terminal ? own.main : own.lateral) += light[bud - 1];
+      ++own.buds;
+    }
     const std::uint32_t parent = plant.parent[node];
     if (parent == kNone) continue;
-    LightSum& own = sums[node];
     LightSum& below = sums[parent];
     (plant.founds_axis[node] ? below.lateral : below.main) += own.total();
     below.buds += own.buds;

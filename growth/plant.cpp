@@ -56,7 +56,6 @@ void close_nodes(Plant& plant) {
   for (Bud& bud : plant.buds) {
     if (bud.is_dead()) continue;
     bud.node = new_node[bud.node];
-    bud.axis = new_axis[bud.axis];
   }
   plant.cut_nodes = 0;
 }
@@ -78,7 +77,7 @@ Plant seedling(const TreePlace& place, Site site) {
   trunk.reference = Vec3f(perpendicular_at(kUp, azimuth));
   plant.axes.push_back(trunk);
   plant.axes_founded = 1;
-  plant.buds.push_back({.node = 0, .axis = 0, .site = site, .direction = Vec3f(kUp), .is_terminal = true});
+  plant.buds.push_back({.node = 0, .site = site, .direction = Vec3f(kUp), .is_terminal = true});
   return plant;
 }
 

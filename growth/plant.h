@@ -25,8 +25,7 @@ struct Axis {
 };
 
 struct Bud {
-  std::uint32_t node = 0;    // where it stands; kNone: dead
-  std::uint32_t axis = 0;    // the axis it continues (terminal) or stands on (axillary)
+  std::uint32_t node = 0;    // where it stands, on the axis it continues or branches off; kNone: dead
   Site site = 0;             // the node's voxel
   Vec3f direction{0, 1, 0};  // unit, default direction of its first metamer
   std::uint16_t birth_step = 0;
@@ -46,7 +45,7 @@ struct Plant {
   std::vector<std::uint32_t> id;          // how many nodes were made before it; only where a history is kept
 
   std::vector<Axis> axes;
-  std::vector<Bud> buds;  // by node, but for those that replace a bud
+  std::vector<Bud> buds;  // by node; the dead anywhere
 
   std::uint32_t axes_founded = 0;  // ever, the trunk too
   std::uint32_t cut_nodes = 0;     // holes in the arrays

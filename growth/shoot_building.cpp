@@ -1,5 +1,7 @@
 #include "growth/shoot_building.h"
 
+#include <algorithm>
+
 namespace ramify::growth {
 namespace {
 
@@ -16,26 +18,37 @@ class Builder {
         buds_cast_(is_light_ && world.casters == Casters::buds),
         metamers_cast_(is_light_ && world.casters == Casters::metamers),
         casts_from_start_(world.shadow == ShadowModel::multiplicative),
+        last_node_(static_cast<std::uint32_t>(plant.node_count() - 1)),
         changes_(changes) {}
 
   void build(const Shoot& shoot) {
     const Bud bud = plant_.buds[shoot.bud];
+    const std::uint32_t bearer = plant_.axis[bud.node];
     spend(shoot);
     if (shoot.made == 0) return;
     // The node that a terminal bud leaves behind may get its axillary buds only now.
     if (bud.is_terminal && tree_.tip_bud == TipBud::terminal) {
-      add_axillary_buds(bud.node, bud.axis, shoot.first, shoot.bud);
+      add_axillary_buds(bud.node, shoot.first, shoot.bud);
     }
 
-    const std::uint32_t axis = bud.is_terminal ? bud.axis : found_axis(bud, shoot.axis_id);
+    const std::uint32_t axis = bud.is_terminal ? bearer : found_axis(bud.node, bearer, shoot.axis_id);
     std::uint32_t node = bud.node;
     for (std::size_t slot = shoot.first + 1; slot <= shoot.first + shoot.made; ++slot) {
       node = add_node(axis, node, slot);
       const bool is_tip = slot == shoot.first + shoot.made;
-      if (!is_tip) add_all_axillary_buds(node, axis, slot);
-      if (is_tip && tree_.tip_bud == TipBud::both) add_axillary_buds(node, axis, slot, kNone);
+      if (!is_tip) add_all_axillary_buds(node, slot);
+      if (is_tip && tree_.tip_bud == TipBud::both) add_axillary_buds(node, slot, kNone);
     }
     add_terminal_bud(node, axis, shoot);
+  }
+
+  /// A tip with several axillary buds may have put some of them behind buds of later nodes.
+  void sort_buds() {
+    if (is_sorted_) return;
+    std::erase_if(plant_.buds, [](const Bud& bud) { return bud.is_dead(); });
+    plant_.dead_buds = 0;
+    std::stable_sort(plant_.buds.begin(), plant_.buds.end(),
+                     [](const Bud& a, const Bud& b) { return a.node < b.node; });
   }
 
  private:
@@ -45,12 +58,12 @@ class Builder {
     if (buds_cast_) changes_.removed.push_back(traces_.voxel[shoot.first]);
   }
 
-  std::uint32_t found_axis(const Bud& bud, std::uint32_t id) {
+  std::uint32_t found_axis(std::uint32_t base, std::uint32_t bearer, std::uint32_t id) {
     Axis axis;
-    axis.base = bud.node;
+    axis.base = base;
     axis.first = static_cast<std::uint32_t>(plant_.node_count());
     axis.id = id;
-    axis.order = static_cast<std::uint16_t>(plant_.axes[bud.axis].order + 1);
+    axis.order = static_cast<std::uint16_t>(plant_.axes[bearer].order + 1);
     plant_.axes.push_back(axis);
     plant_.axes_founded = id + 1;
     return static_cast<std::uint32_t>(plant_.axes.size() - 1);
@@ -78,25 +91,24 @@ class Builder {
       reference = Vec3f(transported(Vec3(reference), Vec3(shoot.end_direction), Vec3(direction)));
     }
     plant_.axes[axis].reference = reference;
-    add_bud({.node = node, .axis = axis, .direction = direction, .is_terminal = true}, slot, kNone);
+    add_bud({.node = node, .direction = direction, .is_terminal = true}, slot, kNone);
   }
 
-  void add_all_axillary_buds(std::uint32_t node, std::uint32_t axis, std::size_t slot) {
-    for (std::size_t i = 0; i < traces_.buds_per_node; ++i) add_axillary_bud(node, axis, slot, i, kNone);
+  void add_all_axillary_buds(std::uint32_t node, std::size_t slot) {
+    for (std::size_t i = 0; i < traces_.buds_per_node; ++i) add_axillary_bud(node, slot, i, kNone);
   }
 
   /// Of a tip: without the one that goes on in its stead. The first takes the place of the dead bud `spent`.
-  void add_axillary_buds(std::uint32_t node, std::uint32_t axis, std::size_t slot, std::uint32_t spent) {
+  void add_axillary_buds(std::uint32_t node, std::size_t slot, std::uint32_t spent) {
     for (std::size_t i = tree_.sympodial ? 1 : 0; i < traces_.buds_per_node; ++i) {
-      add_axillary_bud(node, axis, slot, i, spent);
+      add_axillary_bud(node, slot, i, spent);
       spent = kNone;
     }
   }
 
-  void add_axillary_bud(std::uint32_t node, std::uint32_t axis, std::size_t slot, std::size_t i,
-                        std::uint32_t spent) {
+  void add_axillary_bud(std::uint32_t node, std::size_t slot, std::size_t i, std::uint32_t spent) {
     const Vec3f direction = traces_.axillary[slot * traces_.buds_per_node + i];
-    add_bud({.node = node, .axis = axis, .direction = direction}, slot, spent);
+    add_bud({.node = node, .direction = direction}, slot, spent);
   }
 
   void add_bud(Bud bud, std::size_t slot, std::uint32_t spent) {
@@ -105,6 +117,8 @@ class Builder {
     bud.birth_step = step_;
     if (buds_cast_) changes_.added.push_back(voxel);
     if (spent == kNone) {
+      is_sorted_ = is_sorted_ && (plant_.buds.empty() || bud.node >= last_node_);
+      last_node_ = bud.node;
       plant_.buds.push_back(bud);
     } else {
       plant_.buds[spent] = bud;
@@ -121,6 +135,8 @@ class Builder {
   bool buds_cast_;
   bool metamers_cast_;
   bool casts_from_start_;
+  bool is_sorted_ = true;    // buds by node
+  std::uint32_t last_node_;  // of the bud put behind all others last
   CasterChanges& changes_;
 };
 
@@ -131,6 +147,7 @@ void build_shoots(Plant& plant, const std::vector<Shoot>& shoots, const Traces& 
                   CasterChanges& changes) {
   Builder builder(plant, traces, world, tree, shadow, step, changes);
   for (const Shoot& shoot : shoots) builder.build(shoot);
+  builder.sort_buds();
 }
 
 void abort_buds(Plant& plant, const Parameters& world, const TreeParameters& tree, const ShadowGrid& shadow,

@@ -12,7 +12,8 @@ namespace {
 // v is a sum of many shares: one that rounding left a hair below a whole number counts as that number.
 constexpr double kVigourSlack = 1e-9;
 
-constexpr std::size_t kShootsPerTask = 64;
+constexpr std::size_t kShootsPerTask = 256;
+constexpr std::size_t kReadAhead = 4;
 
 /// A bud's v after the cap, or 0 where it rests.
 double capped_vigour(double vigour, double cap) {
@@ -70,7 +71,7 @@ class Tracer {
 
   void trace(Shoot& shoot, Traces& traces) const {
     const Bud& bud = plant_.buds[shoot.bud];
-    const Axis& axis = plant_.axes[bud.axis];
+    const Axis& axis = plant_.axes[plant_.axis[bud.node]];
     const int order = axis.order + (bud.is_terminal ? 0 : 1);
     std::uint32_t rank = bud.is_terminal ? axis.node_count - 1 : kNone;  // of a new axis the next is 0
     Frame frame{Vec3(bud.direction), Vec3(axis.reference)};
@@ -169,7 +170,7 @@ std::vector<Shoot> plan_shoots(const Plant& plant, const std::vector<double>& vi
     Shoot shoot;
     shoot.bud = i;
     shoot.planned = static_cast<std::uint32_t>(count);
-    shoot.axis_id = plant.buds[i].is_terminal ? plant.axes[plant.buds[i].axis].id : next_axis++;
+    shoot.axis_id = plant.buds[i].is_terminal ? plant.axes[plant.axis[plant.buds[i].node]].id : next_axis++;
     shoot.metamer_length = length * capped / count;
     shoot.first = next_slot;
     next_slot += shoot.planned + 1;
@@ -188,7 +189,11 @@ Traces trace_shoots(std::vector<Shoot>& shoots, const Plant& plant, const Guides
   traces.axillary.resize(slots * traces.buds_per_node);
   const Tracer tracer(plant, guides, step);
   parallel_for(shoots.size(), kShootsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) tracer.trace(shoots[i], traces);
+    for (std::size_t i = begin; i < end; ++i) {
+      // Where the shoots after this one will look for light: reading ahead hides the wait.
+      if (i + kReadAhead < end) guides.light.grid().prefetch(plant.buds[shoots[i + kReadAhead].bud].site);
+      tracer.trace(shoots[i], traces);
+    }
   });
   return traces;
 }

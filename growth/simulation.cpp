@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/parallel.h"
 #include "growth/allocation.h"
 #include "growth/cutting.h"
 #include "growth/environment_light.h"
@@ -14,7 +15,7 @@ namespace ramify::growth {
 namespace {
 
 // Holes are closed when they are this share of an array: copying often costs more than skipping them.
-constexpr double kHoleShare = 0.2;
+constexpr double kHoleShare = 0.1;
 
 Penumbra penumbra_of(const Parameters& world) {
   return {.model = world.shadow,
@@ -56,7 +57,8 @@ Simulation::Simulation(const Parameters& world, bool with_history)
       markers_->occupy(tree.plant.position, occupied_radius(place, 0));
     }
   }
-  apply_changes();
+  shadow_.cast(changes_.added);
+  changes_.added.clear();
 }
 
 std::size_t Simulation::internode_count() const {
@@ -89,15 +91,19 @@ void Simulation::sense() {
   stopwatch_.lap("allocation");
 }
 
-double Simulation::planned() const {
-  double sum = static_cast<double>(internode_count());
-  for (const GrowingTree& tree : trees_) sum += planned_metamers(tree.vigour, tree.place, step_ + 1);
-  return sum;
+bool Simulation::has_room() const {
+  // A metamer takes a vigour of 1, so there cannot be more of them than there is resource.
+  double most = static_cast<double>(internode_count());
+  for (const GrowingTree& tree : trees_) most += root_vigour(tree.sums, tree.place, step_ + 1);
+  if (most <= 0.99 * world_.max_internodes) return true;
+  double planned = static_cast<double>(internode_count());
+  for (const GrowingTree& tree : trees_) planned += planned_metamers(tree.vigour, tree.place, step_ + 1);
+  return planned <= world_.max_internodes;
 }
 
 bool Simulation::advance() {
   sense();
-  if (planned() > world_.max_internodes) return false;
+  if (!has_room()) return false;
   const int step = step_ + 1;
   barriers_.set_step(step);
 
@@ -109,7 +115,21 @@ bool Simulation::advance() {
   shed_starved(step);
   for (GrowingTree& tree : trees_) extend(tree, step);
   stopwatch_.lap("shoots");
-  shed_shaded(shaded, step);
+
+  // What is shed is known without the shadows of what has grown: the two go side by side.
+  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) i == 0 ? shadow_.cast(changes_.added) : lose(shaded, step);
+  });
+  shadow_.uncast(changes_.removed);
+  changes_.added.clear();
+  changes_.removed.clear();
+  stopwatch_.lap("shadow and shedding");
+  step_ = step;
+  return true;
+}
+
+void Simulation::lose(const std::vector<std::vector<std::uint32_t>>& shaded, int step) {
+  for (std::size_t i = 0; i < trees_.size(); ++i) cut(trees_[i], shaded[i], step);
   prune(step);
   if (world_.leaf_lifespan > 0) {
     for (const GrowingTree& tree : trees_) drop_leaves(tree, step);
@@ -118,11 +138,6 @@ bool Simulation::advance() {
     abort_buds(tree.plant, world_, tree.place, shadow_, step, changes_);
     compact(tree.plant, kHoleShare);
   }
-  stopwatch_.lap("shedding");
-  apply_changes();
-  stopwatch_.lap("shadow");
-  step_ = step;
-  return true;
 }
 
 void Simulation::extend(GrowingTree& tree, int step) {
@@ -140,10 +155,6 @@ void Simulation::shed_starved(int step) {
   for (GrowingTree& tree : trees_) {
     cut(tree, starved_internodes(tree.plant, tree.sums, tree.vigour, tree.place, step), step);
   }
-}
-
-void Simulation::shed_shaded(const std::vector<std::vector<std::uint32_t>>& shaded, int step) {
-  for (std::size_t i = 0; i < trees_.size(); ++i) cut(trees_[i], shaded[i], step);
 }
 
 void Simulation::prune(int step) {
@@ -185,13 +196,6 @@ void Simulation::cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, 
     bud.node = kNone;
     ++plant.dead_buds;
   }
-}
-
-void Simulation::apply_changes() {
-  shadow_.cast(changes_.added);
-  shadow_.uncast(changes_.removed);
-  changes_.added.clear();
-  changes_.removed.clear();
 }
 
 }  // namespace ramify::growth

@@ -37,14 +37,13 @@ class Simulation {
   std::vector<GrowingTree> take_trees() { return std::move(trees_); }
 
  private:
-  double planned() const;
+  bool has_room() const;
   void extend(GrowingTree& tree, int step);
   void drop_leaves(const GrowingTree& tree, int step);
   void shed_starved(int step);
-  void shed_shaded(const std::vector<std::vector<std::uint32_t>>& shaded, int step);
+  void lose(const std::vector<std::vector<std::uint32_t>>& shaded, int step);
   void prune(int step);
   void cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step);
-  void apply_changes();
 
   const Parameters& world_;
   ShadowGrid shadow_;

@@ -24,9 +24,9 @@ struct Fork {
     plant = test::seedling();
     add_node(plant, 0, 0);
     add_node(plant, 1, 1);
-    plant.buds = {{.node = 1, .axis = 0, .is_terminal = true},
-                  {.node = 1, .axis = 0, .is_terminal = false},
-                  {.node = 2, .axis = 1, .is_terminal = true}};
+    plant.buds = {{.node = 1, .is_terminal = true},
+                  {.node = 1, .is_terminal = false},
+                  {.node = 2, .is_terminal = true}};
     sum_light(plant, light, sums);
   }
 };
@@ -122,9 +122,8 @@ TEST_CASE("priority: among equals the one nearest the tip leads, the terminal bu
   Plant plant = test::seedling();
   add_node(plant, 0, 0);
   add_node(plant, 1, 0);
-  plant.buds = {{.node = 1, .axis = 0, .is_terminal = false},
-                {.node = 2, .axis = 0, .is_terminal = false},
-                {.node = 2, .axis = 0, .is_terminal = true}};
+  plant.buds = {
+      {.node = 1, .is_terminal = false}, {.node = 2, .is_terminal = false}, {.node = 2, .is_terminal = true}};
   const std::vector<double> light = {1.0, 1.0, 1.0};
   std::vector<LightSum> sums;
   sum_light(plant, light, sums);

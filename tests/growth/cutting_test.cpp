@@ -48,7 +48,7 @@ TEST_CASE("cutting: all that grows from a cut goes with it, and the tips are rem
 TEST_CASE("cutting: closing the holes leaves the living as they were") {
   Plant plant = forked();
   plant.position[5] = {5, 5, 5};
-  plant.buds = {{.node = kNone}, {.node = 5, .axis = 0, .is_terminal = true}};
+  plant.buds = {{.node = kNone}, {.node = 5, .is_terminal = true}};
   plant.dead_buds = 1;
   cut_away(plant, nodes_beyond(plant, {3}));
   compact(plant, 0.9);
@@ -67,7 +67,7 @@ TEST_CASE("shedding: an axis is judged by light an internode, not before its tim
   TreeParameters tree;
   tree.shed_threshold = 0.5;
   Plant plant = forked();
-  plant.buds.push_back({.node = 4, .axis = 1, .is_terminal = true});
+  plant.buds.push_back({.node = 4, .is_terminal = true});
   std::vector<LightSum> sums;
   sum_light(plant, {1.0}, sums);
   CHECK(shaded_axes(plant, sums, tree, 2).empty());  // 1 / 2 is not below
@@ -85,7 +85,7 @@ TEST_CASE("shedding: by vigour an internode is judged by resource an internode, 
   tree.shed_by = ShedBy::vigour;
   tree.shed_threshold = 0.3;
   Plant plant = forked();
-  plant.buds = {{.node = 4, .axis = 1}, {.node = 5, .axis = 0}};
+  plant.buds = {{.node = 4}, {.node = 5}};
   std::vector<LightSum> sums;
   sum_light(plant, {0.0, 0.0}, sums);
   // Node 5 gets 0.2, nodes 2 to 5 0.2 / 2, 3 to 4 0.8 / 2, 1 all: 1 / 5.
