@@ -1,0 +1,249 @@
+// Growth measured: whole trees, each in a process of its own, against the plain version and in all sizes, and
+// the parts of growth. What the lines mean: README.md.
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <span>
+#include <string_view>
+
+#include "bench/components.h"
+#include "bench/lone_run.h"
+#include "bench/results.h"
+#include "bench/trees.h"
+
+namespace ramify::bench {
+namespace {
+
+constexpr const char* kUsage =
+    "Usage: bench_growth [--quick] [--ten-million] [--check] [--benchmark_...]\n"
+    "Measures growth/ and compares it with the plain version of the model.\n"
+    "  --quick        under 30 s: no tree of more than 160,000 internodes\n"
+    "  --ten-million  also a tree of 10 million internodes\n"
+    "  --check        only whether the plain version makes the same trees\n"
+    "Google Benchmark's own options, such as --benchmark_filter=REGEX, work too.\n";
+
+struct Options {
+  bool is_quick = false;
+  bool has_ten_million = false;
+  bool only_checks = false;
+  bool wants_help = false;
+};
+
+// Steps after which the tree has about so many internodes.
+constexpr int kQuickSteps = 47;           // 160,000
+constexpr int kMediumSteps = 40;          // 98,000
+constexpr int kFullSteps = 72;            // 640,000
+constexpr int kTenMillionSteps = 180;     // 10 million
+constexpr int kPriorityMediumSteps = 21;  // as kMediumSteps
+constexpr int kPriorityFullSteps = 30;    // as kFullSteps
+
+/// One of the trees that time is fitted to. In thousands: 40, 80, 98, 160, 320, 463, 640, 968, 1300.
+struct Size {
+  int steps = 0;
+  double peer_millions_per_s = 0.0;  // internodes that the quickest public program makes; 0: none so large
+};
+
+constexpr Size kSizes[] = {{30},       {37},         {kMediumSteps}, {kQuickSteps}, {59},
+                           {66, 0.42}, {kFullSteps}, {83, 0.33},     {91}};
+
+std::string steps_assignment(int steps) {
+  return fmt::format("steps={}", steps);
+}
+
+std::string size_name(int steps) {
+  return fmt::format("growth/steps:{}", steps);
+}
+std::string threads_name(int steps) {
+  return size_name(steps) + "/threads:2";
+}
+std::string plain_name(int steps) {
+  return fmt::format("plain/steps:{}", steps);
+}
+std::string priority_name(int steps) {
+  return fmt::format("priority/steps:{}", steps);
+}
+constexpr const char* kSpace = "space/steps:40";
+constexpr const char* kTenMillion = "growth/ten-million";
+
+void register_trial(Results& results, const std::string& name, int repetitions, const Trial& trial) {
+  register_work(results, name, repetitions, [trial] { return run_alone(trial); });
+}
+
+/// P09's rho and r; about as many internodes as the light model makes in the same steps.
+std::vector<std::string> space_assignments() {
+  return {steps_assignment(kMediumSteps),
+          "growth.environment=space",
+          "growth.rho=2",
+          "growth.r=5",
+          "growth.markers.volume.center=[0,7,0]",
+          "growth.markers.volume.radius=7.5",
+          "growth.markers.density=500"};
+}
+
+int largest_steps(const Options& options) {
+  return options.is_quick ? kMediumSteps : kFullSteps;
+}
+
+/// For a tree as large.
+int priority_steps(const Options& options) {
+  return options.is_quick ? kPriorityMediumSteps : kPriorityFullSteps;
+}
+
+void register_trees(Results& results, const Options& options) {
+  const int repetitions = options.is_quick ? 2 : 3;
+  const auto grow = [&](const std::string& name, int steps, Trial trial) {
+    trial.assignments.insert(trial.assignments.begin(), steps_assignment(steps));
+    register_trial(results, name, repetitions, trial);
+  };
+  for (const Size& size : kSizes) {
+    if (options.is_quick && size.steps > kQuickSteps) continue;
+    grow(size_name(size.steps), size.steps, {});
+    if (size.steps == largest_steps(options)) grow(threads_name(size.steps), size.steps, {.threads = 2});
+  }
+  const std::vector<std::string> priority = {"growth.allocation=priority"};
+  grow(priority_name(priority_steps(options)), priority_steps(options), {.assignments = priority});
+  register_trial(results, kSpace, repetitions, {.assignments = space_assignments()});
+
+  grow(plain_name(kMediumSteps), kMediumSteps, {.version = Version::plain});
+  const Trial plain{.version = Version::plain, .assignments = {steps_assignment(kFullSteps)}};
+  if (!options.is_quick) register_trial(results, plain_name(kFullSteps), 1, plain);
+  if (options.has_ten_million) {
+    const Trial trial{.threads = 2,
+                      .assignments = {steps_assignment(kTenMillionSteps), "growth.max_internodes=20000000"}};
+    register_trial(results, kTenMillion, 1, trial);
+  }
+}
+
+std::optional<double> seconds_of(const std::optional<Outcome>& outcome) {
+  return outcome ? std::optional(outcome->seconds) : std::nullopt;
+}
+
+std::optional<double> peak_megabytes_of(const std::optional<Outcome>& outcome) {
+  return outcome ? std::optional(outcome->peak_bytes / 1e6) : std::nullopt;
+}
+
+std::optional<double> program_megabytes_of(const std::optional<Outcome>& outcome) {
+  return outcome ? std::optional(outcome->bytes_at_start / 1e6) : std::nullopt;
+}
+
+/// The rows of performance.md that are about growth.
+void print_goals(const Results& results, const Options& options) {
+  const int largest = largest_steps(options);
+  const std::string one_thread = size_name(largest);
+  const std::optional<Outcome> full = results.find(size_name(kFullSteps));
+  const std::optional<Outcome> one = results.find(one_thread);
+  const std::optional<Outcome> two = results.find(threads_name(largest));
+  const std::optional<Outcome> huge = results.find(kTenMillion);
+  GoalTable table;
+  table.add("growth to 640,000 internodes, one thread", seconds_of(full), " s", Goal{1.0, 0.35});
+  table.add("  its peak memory, the program included", peak_megabytes_of(full), " MB", Goal{130.0});
+  table.add("  of it the program and its libraries, before anything grows", program_megabytes_of(full), " MB");
+  table.add("  two threads", seconds_of(results.find(threads_name(kFullSteps))), " s");
+  table.add("the plain version against it", results.ratio(plain_name(kFullSteps), size_name(kFullSteps)), "x",
+            Goal{7.0, 18.0, false});
+  table.add("the plain version at 98,000 internodes",
+            results.ratio(plain_name(kMediumSteps), size_name(kMediumSteps)), "x");
+  add_components(table, results);
+  table.add("space markers against light, an internode, 100,000",
+            results.ratio_per_internode(kSpace, size_name(kMediumSteps)), "x", Goal{3.0, 1.5});
+  table.add("priority against Borchert-Honda, an internode of a tree as large",
+            results.ratio_per_internode(priority_name(priority_steps(options)), one_thread), "x");
+  table.add("two threads against one", results.ratio(one_thread, threads_name(largest)), "x",
+            Goal{1.5, 1.8, false});
+  table.add_claim("  and they make the same skeleton, to the last bit",
+                  one && two ? std::optional(one->skeleton == two->skeleton) : std::nullopt);
+  table.add("growth to 10 million internodes, two threads", seconds_of(huge), " s");
+  table.add("  its peak memory", peak_megabytes_of(huge), " MB", Goal{2500.0});
+  table.print();
+}
+
+void print_sizes(const Results& results) {
+  constexpr const char* layout = "{:>10} {:>7} {:>9} {:>9} {:>12} {:>12} {:>9} {:>16}\n";
+  std::vector<double> internodes;
+  std::vector<double> seconds;
+  double slowdown = 1.0;
+  const bool has_any = std::any_of(std::begin(kSizes), std::end(kSizes), [&](const Size& size) {
+    return results.find(size_name(size.steps)).has_value();
+  });
+  if (!has_any) return;
+  fmt::print("\nOne thread, by size; bytes without the program's own\n");
+  fmt::print(layout, "internodes", "steps", "seconds", "CPU s", "million/s", "bytes each", "peak MB",
+             "public program");
+  for (const Size& size : kSizes) {
+    const std::optional<Outcome> outcome = results.find(size_name(size.steps));
+    if (!outcome) continue;
+    internodes.push_back(outcome->internodes);
+    seconds.push_back(outcome->seconds);
+    slowdown = std::max(slowdown, outcome->seconds / outcome->cpu_seconds);
+    const double bytes = outcome->peak_bytes - outcome->bytes_at_start;
+    fmt::print(layout, outcome->internodes, size.steps, fmt::format("{:.3f}", outcome->seconds),
+               fmt::format("{:.3f}", outcome->cpu_seconds),
+               fmt::format("{:.2f}", outcome->internodes / outcome->seconds / 1e6),
+               fmt::format("{:.0f}", bytes / outcome->internodes),
+               fmt::format("{:.0f}", outcome->peak_bytes / 1e6),
+               size.peer_millions_per_s > 0.0 ? fmt::format("{} million/s", size.peer_millions_per_s) : "");
+  }
+  if (internodes.size() < 2) return;
+  fmt::print("time grows as N^{:.2f} (reach: N^1.3)\n", fitted_exponent(internodes, seconds));
+  if (slowdown > 1.05) {
+    fmt::print("The machine was busy: these runs took up to {:.2f} times their CPU time.\n", slowdown);
+  }
+}
+
+/// Takes our own options out of the arguments.
+Options parse_options(int& argc, char** argv) {
+  Options options;
+  const auto take = [&](const char* flag, bool& value) {
+    char** const end = std::remove(argv + 1, argv + argc, std::string_view(flag));
+    value = end != argv + argc;
+    argc = static_cast<int>(end - argv);
+  };
+  take("--quick", options.is_quick);
+  take("--ten-million", options.has_ten_million);
+  take("--check", options.only_checks);
+  take("--help", options.wants_help);
+  return options;
+}
+
+int run(int argc, char** argv) {
+  const Options options = parse_options(argc, argv);
+  if (options.wants_help) {
+    fmt::print("{}", kUsage);
+    return 0;
+  }
+  // Ratios mean something between programs that do the same.
+  if (const auto found = plain_difference({12, options.only_checks ? 20 : 36})) {
+    fmt::print(stderr, "error: {}\n", *found);
+    return 1;
+  }
+  if (options.only_checks) return 0;
+
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  Results results;
+  register_trees(results, options);
+  register_components(results, largest_steps(options));
+  run_registered_work();
+  benchmark::Shutdown();
+  print_sizes(results);
+  print_goals(results, options);
+  return results.has_failed() ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace ramify::bench
+
+int main(int argc, char** argv) {
+  using namespace ramify::bench;
+  try {
+    const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
+    const bool is_lone_run = argc > 1 && std::string_view(argv[1]) == kLoneRunFlag;
+    return is_lone_run ? answer_trial(arguments.subspan(2)) : run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 1;
+  }
+}
