@@ -12,6 +12,19 @@ double greatest(const Schedule& schedule) {
   return value;
 }
 
+/// Whether a schedule never rises above its value at `step` from then on.
+bool never_rises(const Schedule& schedule, int step) {
+  const double now = schedule.at(step);
+  return std::all_of(schedule.points().begin(), schedule.points().end(),
+                     [&](const auto& point) { return point.first <= step || point.second <= now; });
+}
+
+/// Whether what a bud does not see in `step` it will not see later either.
+bool sight_never_widens(const TreeParameters& tree, int step) {
+  return never_rises(tree.r, step) && never_rises(tree.theta_deg, step) &&
+         never_rises(tree.internode_length, step);
+}
+
 }  // namespace
 
 Markers scattered_markers(const Parameters& world, const std::vector<TreePlace>& places) {
@@ -37,7 +50,7 @@ void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step) {
     for (std::size_t i = 0; i < tree.plant.buds.size(); ++i) {
       const Bud& bud = tree.plant.buds[i];
       tree.space[i] = bud.direction;
-      if (bud.is_dead() || markers.is_barren(tree.plant.position[bud.node])) continue;
+      if (bud.is_dead() || bud.is_blind || markers.is_barren(tree.plant.position[bud.node])) continue;
       seekers.push_back({tree.plant.position[bud.node], Vec3(bud.direction), radius, min_cosine});
       tree.light[i] = 1.0;  // that it looks; for the second pass
     }
@@ -47,10 +60,12 @@ void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step) {
   markers.claim(seekers, claims);
   auto claim = claims.cbegin();
   for (GrowingTree& tree : trees) {
+    const bool is_final = sight_never_widens(tree.place, step);
     for (std::size_t i = 0; i < tree.light.size(); ++i) {
       if (tree.light[i] == 0.0) continue;
       tree.light[i] = claim->markers > 0 ? 1.0 : 0.0;
       tree.space[i] = Vec3f(claim->direction);
+      tree.plant.buds[i].is_blind = is_final && claim->is_blind;
       ++claim;
     }
   }

@@ -308,6 +308,7 @@ void Markers::claim(std::span<const Seeker> seekers, std::vector<Claim>& claims)
   sort_into_bricks(seekers, claims);
   sorted_.resize(order_.size());
   win_count_.resize(order_.size());
+  saw_.resize(order_.size());
   const std::size_t groups = (order_.size() + kGroup - 1) / kGroup;
   if (won_.size() < groups) won_.resize(groups);
   const auto end_of = [&](std::size_t group) { return std::min((group + 1) * kGroup, order_.size()); };
@@ -324,6 +325,7 @@ void Markers::claim(std::span<const Seeker> seekers, std::vector<Claim>& claims)
         const Vec3 from_low = sorted_[i].position - box_.low;
         assert(cone.radius <= reach_ * (1.0 + kCellSlack));
         find_candidates(from_low, cone, candidates);
+        saw_[i] = !candidates.empty();
         win_count_[i] = contend(from_low, order_[i], cone, candidates, won_[group]);
       }
     }
@@ -335,6 +337,7 @@ void Markers::claim(std::span<const Seeker> seekers, std::vector<Claim>& claims)
       std::span<const std::uint32_t> won = won_[group];
       for (std::size_t i = group * kGroup; i < end_of(group); ++i) {
         claims[order_[i]] = collect(sorted_[i], order_[i], won.first(win_count_[i]));
+        claims[order_[i]].is_blind = saw_[i] == 0;
         won = won.subspan(win_count_[i]);
       }
     }

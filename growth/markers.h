@@ -30,6 +30,7 @@ struct Claim {
   // Normalized sum of the unit vectors to its markers; the seeker's own direction where there are none or
   // they cancel out.
   Vec3 direction{0.0};
+  bool is_blind = false;  // no marker is in sight, not even one that another has: there never will be again
 };
 
 class Markers {
@@ -119,6 +120,7 @@ class Markers {
   std::vector<std::uint32_t> order_;             // the seekers that are not barren, brick by brick
   std::vector<Seeker> sorted_;                   // the same, themselves
   std::vector<std::uint32_t> win_count_;         // how often each of them was the best so far
+  std::vector<std::uint8_t> saw_;                // of each seeker, whether any marker is in sight
   std::vector<std::vector<std::uint32_t>> won_;  // at which markers, by groups of seekers
 };
 

@@ -30,6 +30,7 @@ struct Bud {
   Vec3f direction{0, 1, 0};  // unit, default direction of its first metamer
   std::uint16_t birth_step = 0;
   bool is_terminal = false;
+  bool is_blind = false;  // space: it will never see a marker again
 
   bool is_dead() const { return node == kNone; }
 };
