@@ -168,7 +168,9 @@ bool Part::meets(const Vec3& from, const Vec3& to) const {
   if (is_compound(shape) || !primitive.has_exact_meets()) {
     // One way along, so that near misses are the same from either end.
     const bool is_forward = std::tie(from.x, from.y, from.z) < std::tie(to.x, to.y, to.z);
-    return box_is_met(bounds, from, to) && (is_forward ? marches_into(from, to) : marches_into(to, from));
+    // What is met within the tolerance may lie that much beside the bounds.
+    const Box box{bounds.low - tolerance, bounds.high + tolerance};
+    return box_is_met(box, from, to) && (is_forward ? marches_into(from, to) : marches_into(to, from));
   }
   if (is_plain) return primitive.meets(from, to);
   return primitive.meets(placement->to_own(from), placement->to_own(to));

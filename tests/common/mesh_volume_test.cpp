@@ -18,6 +18,7 @@ using namespace ramify;
 using ramify::test::check_meets;
 using ramify::test::Folder;
 using ramify::test::points_around;
+using ramify::test::problem_of;
 
 namespace {
 
@@ -69,21 +70,12 @@ Volume of_file(const std::string& file) {
   return {.shape = Shape::mesh, .file = file};
 }
 
-std::string problem_of(const Volume& volume) {
-  try {
-    check_volume(volume, "rock");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 /// The message about a file of that text, without the folder's name.
 std::string problem_of_obj(const std::string& text, double voxel_size = 0.0) {
   const Folder folder;
   Volume volume = of_file(write(folder, text));
   volume.voxel_size = voxel_size;
-  const std::string problem = problem_of(volume);
+  const std::string problem = problem_of("rock", volume);
   const std::size_t begin = problem.find(folder.path().string());
   if (begin == std::string::npos) return problem;
   return problem.substr(0, begin) + problem.substr(begin + folder.path().string().size() + 1);
@@ -108,7 +100,7 @@ TEST_CASE("mesh volume: a cube's inside is that of a box, within a voxel") {
   const Folder folder;
   const Volume cube = of_file(write(folder, std::string(kCubePoints) + kCubeFaces));
   const Volume box{.shape = Shape::box, .center = {0.5, 0.5, 0.5}};
-  CHECK(problem_of(cube).empty());
+  CHECK(problem_of("rock", cube).empty());
   check_same(cube, box, 1.0 / 128);
   CHECK(std::abs(volume_of(cube) - 1.0) < 0.005);
   CHECK(bounds(cube).low == Vec3(0, 0, 0));
@@ -175,7 +167,7 @@ TEST_CASE("mesh volume: a wall that is thinner than a voxel is not jumped") {
   }
   // Left to itself the size is chosen so that the wall is there.
   thin.voxel_size = 0.0;
-  CHECK(problem_of(thin).empty());
+  CHECK(problem_of("rock", thin).empty());
   CHECK(std::abs(volume_of(thin) - 0.01) < 0.0005);
 }
 
@@ -199,7 +191,7 @@ TEST_CASE("mesh volume: which way the faces look and whether they share corners 
   }
   const Volume tetrahedron =
       of_file(write(other, "# exported\nmtllib x.mtl\no thing\ns off\nvt 0 0\nvn 0 1 0\n" + split));
-  CHECK(problem_of(tetrahedron).empty());
+  CHECK(problem_of("rock", tetrahedron).empty());
   CHECK(std::abs(volume_of(tetrahedron) - 1.0 / 6) < 0.003);
 }
 
@@ -242,10 +234,11 @@ TEST_CASE("mesh volume: the same for any number of threads, and a file that chan
 }
 
 TEST_CASE("mesh volume: a file that is no closed mesh is named with what is wrong") {
-  CHECK(problem_of({.shape = Shape::mesh}) == "rock.file: a mesh without a file (a closed mesh, OBJ)");
-  CHECK(problem_of(of_file("no/such.obj")) ==
+  CHECK(problem_of("rock", {.shape = Shape::mesh}) ==
+        "rock.file: a mesh without a file (a closed mesh, OBJ)");
+  CHECK(problem_of("rock", of_file("no/such.obj")) ==
         "rock.file: no/such.obj: cannot read: No such file or directory");
-  CHECK(problem_of(of_file("/")) == "rock.file: /: is a folder, not a file");
+  CHECK(problem_of("rock", of_file("/")) == "rock.file: /: is a folder, not a file");
   const std::string points = kCubePoints;
   CHECK(problem_of_obj("") == "rock.file: rock.obj: no faces (a closed mesh)");
   CHECK(problem_of_obj(points) == "rock.file: rock.obj: no faces (a closed mesh)");
@@ -255,6 +248,6 @@ TEST_CASE("mesh volume: a file that is no closed mesh is named with what is wron
   CHECK(problem_of_obj(points + "f 1 2 0\n").find("rock.file: rock.obj: no OBJ: ") == 0);
   CHECK(problem_of_obj(points + kCubeFaces, 0.0001) ==
         "rock.file: rock.obj: 1 m long, more than 1000 voxels of 0.0001 m (larger voxels)");
-  CHECK(problem_of({.shape = Shape::union_of, .parts = {{.shape = Shape::mesh}}}) ==
+  CHECK(problem_of("rock", {.shape = Shape::union_of, .parts = {{.shape = Shape::mesh}}}) ==
         "rock.parts.1.file: a mesh without a file (a closed mesh, OBJ)");
 }

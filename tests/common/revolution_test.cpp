@@ -6,10 +6,12 @@
 #include "common/base/errors.h"
 #include "common/volume/volume.h"
 #include "tests/catch.h"
+#include "tests/common/solids.h"
 #include "tests/folder.h"
 
 using namespace ramify;
 using ramify::test::Folder;
+using ramify::test::problem_of;
 
 namespace {
 
@@ -28,19 +30,10 @@ Volume of_file(const std::string& file) {
   return {.shape = Shape::revolution, .file = file};
 }
 
-std::string problem_of(const Volume& volume) {
-  try {
-    check_volume(volume, "crown");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 /// The message about a file of that text, without the folder's name.
 std::string problem_of_csv(const std::string& text) {
   const Folder folder;
-  const std::string problem = problem_of(of_file(write(folder, text)));
+  const std::string problem = problem_of("crown", of_file(write(folder, text)));
   const std::size_t begin = problem.find(folder.path().string());
   if (begin == std::string::npos) return problem;
   return problem.substr(0, begin) + problem.substr(begin + folder.path().string().size() + 1);
@@ -93,20 +86,21 @@ TEST_CASE("revolution: a file's points are those of the config, with or without 
   for (const std::string text : {"radius,height\n0,0\n1.5,2\n0,4\n", "0,0\n1.5,2\n0,4",
                                  " radius, height\r\n0,0\r\n\r\n 1.5 , 2e0\r\n0,4\r\n"}) {
     const Volume read = of_file(write(folder, text));
-    CHECK(problem_of(read).empty());
+    CHECK(problem_of("crown", read).empty());
     CHECK(volume_of(read) == volume_of(sketched));
   }
 }
 
 TEST_CASE("revolution: what keeps a sketch from being turned is named with its point or line") {
-  CHECK(problem_of(turned({})) == "crown.points: a revolution without a sketch (points, or a file of them)");
-  CHECK(problem_of(turned({{1, 2}})) == "crown.points: a sketch of 1 points (at least 2)");
-  CHECK(problem_of(turned({{1, 0}, {2, 1}, {-0.5, 2}})) ==
+  CHECK(problem_of("crown", turned({})) ==
+        "crown.points: a revolution without a sketch (points, or a file of them)");
+  CHECK(problem_of("crown", turned({{1, 2}})) == "crown.points: a sketch of 1 points (at least 2)");
+  CHECK(problem_of("crown", turned({{1, 0}, {2, 1}, {-0.5, 2}})) ==
         "crown.points: point 3: radius -0.5 is less than 0");
-  CHECK(problem_of(turned({{0, 0}, {0, 2}})).find("crown: nothing inside it") == 0);
-  CHECK(problem_of({.shape = Shape::revolution, .points = {{0, 0}, {1, 1}}, .file = "a.csv"}) ==
+  CHECK(problem_of("crown", turned({{0, 0}, {0, 2}})).find("crown: nothing inside it") == 0);
+  CHECK(problem_of("crown", {.shape = Shape::revolution, .points = {{0, 0}, {1, 1}}, .file = "a.csv"}) ==
         "crown.file: points are given, too (either of them)");
-  CHECK(problem_of(of_file("no/such.csv")) ==
+  CHECK(problem_of("crown", of_file("no/such.csv")) ==
         "crown.file: no/such.csv: cannot read: No such file or directory");
   CHECK(problem_of_csv("") == "crown.file: sketch.csv: a sketch of 0 points (at least 2)");
   CHECK(problem_of_csv("radius,height\n0,0\n1;2\n") ==
@@ -118,8 +112,8 @@ TEST_CASE("revolution: what keeps a sketch from being turned is named with its p
   CHECK(problem_of_csv("0,0\n1,inf\n") ==
         "crown.file: sketch.csv:2: '1,inf' is no point (two numbers, radius,height)");
   CHECK(problem_of_csv("0,0\n-1,2\n0,4\n") == "crown.file: sketch.csv: point 2: radius -1 is less than 0");
-  CHECK(problem_of({.shape = Shape::union_of, .parts = {turned({{1, 2}})}}) ==
+  CHECK(problem_of("crown", {.shape = Shape::union_of, .parts = {turned({{1, 2}})}}) ==
         "crown.parts.1.points: a sketch of 1 points (at least 2)");
-  CHECK(problem_of({.shape = Shape::revolution, .direction = {0, 0, 0}, .points = {{1, 0}, {1, 1}}})
+  CHECK(problem_of("crown", {.shape = Shape::revolution, .direction = {0, 0, 0}, .points = {{1, 0}, {1, 1}}})
             .find("crown.direction: its length is 0") == 0);
 }

@@ -11,29 +11,16 @@
 
 using namespace ramify;
 using ramify::test::check_meets;
+using ramify::test::is_near;
 using ramify::test::known_compositions;
 using ramify::test::known_shapes;
 using ramify::test::KnownVolume;
 using ramify::test::points_around;
+using ramify::test::problem_of;
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-bool is_near(double value, double expected, double tolerance) {
-  INFO(value << " instead of " << expected);
-  CHECK(std::abs(value - expected) <= tolerance);
-  return std::abs(value - expected) <= tolerance;
-}
-
-std::string problem_of(const Volume& volume) {
-  try {
-    check_volume(volume, "crown");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 /// The share of points on which two volumes differ.
 double difference_of(const Volume& a, const Volume& b) {
@@ -168,9 +155,9 @@ TEST_CASE("solid: what is cut off keeps the face of the cut") {
                        .parts = {hole, {.shape = Shape::box, .center = {5, 0, 0}}}};
   CHECK_FALSE(contains(nothing, {0, 0, 0}));
   CHECK(bounds(nothing).is_empty());
-  CHECK(problem_of(nothing).find("crown: nothing inside it") == 0);
-  CHECK(problem_of({.shape = Shape::difference, .parts = {hole, ball}}).find("crown: nothing inside it") ==
-        0);
+  CHECK(problem_of("crown", nothing).find("crown: nothing inside it") == 0);
+  CHECK(problem_of("crown", {.shape = Shape::difference, .parts = {hole, ball}})
+            .find("crown: nothing inside it") == 0);
 }
 
 TEST_CASE("solid: only what is known to be convex has a number of its own") {
@@ -280,11 +267,12 @@ TEST_CASE("solid: a segment that only touches meets, and one of no length is a p
 }
 
 TEST_CASE("solid: parts that are missing and scales of zero are named") {
-  CHECK(problem_of({.shape = Shape::difference}) == "crown: a difference without parts (at least one part)");
-  CHECK(problem_of({.shape = Shape::intersection}) ==
+  CHECK(problem_of("crown", {.shape = Shape::difference}) ==
+        "crown: a difference without parts (at least one part)");
+  CHECK(problem_of("crown", {.shape = Shape::intersection}) ==
         "crown: an intersection without parts (at least one part)");
-  CHECK(problem_of(
-            {.shape = Shape::difference, .parts = {{.shape = Shape::sphere}, {.shape = Shape::union_of}}}) ==
+  CHECK(problem_of("crown", {.shape = Shape::difference,
+                             .parts = {{.shape = Shape::sphere}, {.shape = Shape::union_of}}}) ==
         "crown.parts.2: a union without parts (at least one part)");
   std::string message;
   try {

@@ -1,5 +1,7 @@
 #include "tests/common/solids.h"
 
+#include "common/base/errors.h"
+
 #include <numbers>
 
 #include "common/base/rng.h"
@@ -212,6 +214,21 @@ void check_meets(const Volume& volume, double tolerance) {
   // Both happened: the segments say something.
   CHECK(met_count > 50);
   CHECK(missed_count > 50);
+}
+
+bool is_near(double value, double expected, double tolerance) {
+  INFO(value << " instead of " << expected);
+  CHECK(std::abs(value - expected) <= tolerance);
+  return std::abs(value - expected) <= tolerance;
+}
+
+std::string problem_of(const std::string& key, const Volume& volume) {
+  try {
+    check_volume(volume, key);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
 }
 
 }  // namespace ramify::test

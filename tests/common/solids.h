@@ -34,4 +34,10 @@ std::vector<Vec3> points_around(const Volume& volume, std::uint64_t count);
 /// where it is, one of them is not known to be farther than `tolerance` from it, metres.
 void check_meets(const Volume& volume, double tolerance);
 
+/// Checks that two numbers are near each other, and says whether they are.
+bool is_near(double value, double expected, double tolerance);
+
+/// What check_volume() says of a volume with this key; empty if it is sound.
+std::string problem_of(const std::string& key, const Volume& volume);
+
 }  // namespace ramify::test

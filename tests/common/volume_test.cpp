@@ -9,34 +9,21 @@
 #include "tests/common/solids.h"
 
 using namespace ramify;
+using ramify::test::is_near;
 using ramify::test::known_volumes;
 using ramify::test::KnownVolume;
 using ramify::test::points_around;
+using ramify::test::problem_of;
 using ramify::test::tilts;
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-bool is_near(double value, double expected, double tolerance) {
-  INFO(value << " instead of " << expected);
-  CHECK(std::abs(value - expected) <= tolerance);
-  return std::abs(value - expected) <= tolerance;
-}
-
 Volume two_balls(double apart) {
   return {.shape = Shape::union_of,
           .parts = {{.shape = Shape::sphere, .radius = 1},
                     {.shape = Shape::sphere, .center = {apart, 0, 0}, .radius = 1}}};
-}
-
-std::string problem_of(const Volume& volume) {
-  try {
-    check_volume(volume, "levels.1.volume");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace
@@ -213,16 +200,17 @@ TEST_CASE("volume: faces inside a union do not count for its depth") {
 }
 
 TEST_CASE("volume: what cannot be is named with its key") {
-  CHECK(problem_of({.shape = Shape::union_of}) ==
+  CHECK(problem_of("levels.1.volume", {.shape = Shape::union_of}) ==
         "levels.1.volume: a union without parts (at least one part)");
-  CHECK(problem_of({.shape = Shape::cone, .direction = {0, 0, 0}}) ==
+  CHECK(problem_of("levels.1.volume", {.shape = Shape::cone, .direction = {0, 0, 0}}) ==
         "levels.1.volume.direction: its length is 0 (any other length; only where it points counts)");
-  CHECK(
-      problem_of({.shape = Shape::union_of,
-                  .parts = {{.shape = Shape::sphere}, {.shape = Shape::cylinder, .direction = {0, 0, 0}}}}) ==
-      "levels.1.volume.parts.2.direction: its length is 0 (any other length; only where it points counts)");
-  CHECK(problem_of({.shape = Shape::sphere_portion, .radius = 1, .angle_deg = 0.001, .direction = {1, 1, 1}})
+  CHECK(problem_of("levels.1.volume", {.shape = Shape::union_of,
+                                       .parts = {{.shape = Shape::sphere},
+                                                 {.shape = Shape::cylinder, .direction = {0, 0, 0}}}}) ==
+        "levels.1.volume.parts.2.direction: its length is 0 (any other length; only where it points counts)");
+  CHECK(problem_of("levels.1.volume",
+                   {.shape = Shape::sphere_portion, .radius = 1, .angle_deg = 0.001, .direction = {1, 1, 1}})
             .find("nothing inside") != std::string::npos);
-  CHECK(problem_of({.shape = Shape::sphere, .direction = {0, 0, 0}}).empty());
-  CHECK(problem_of(two_balls(1)).empty());
+  CHECK(problem_of("levels.1.volume", {.shape = Shape::sphere, .direction = {0, 0, 0}}).empty());
+  CHECK(problem_of("levels.1.volume", two_balls(1)).empty());
 }

@@ -170,32 +170,42 @@ TEST_CASE("Borchert-Honda: a demand by mean light counts n (Q / n)^exponent a si
   CHECK(is_near(v[2], 3.5 * lateral / (main + bud + lateral)));
 }
 
+namespace {
+
+/// What the buds of each tree are offered is what its root has, at every step.
+void check_conservation(const Parameters& parameters) {
+  Simulation simulation(parameters);
+  while (simulation.step() < parameters.steps) {
+    REQUIRE(simulation.advance());
+    simulation.sense();
+    for (const GrowingTree& tree : simulation.trees()) {
+      if (tree.sums[0].total() <= 0.0) continue;
+      const double root = root_vigour(tree.sums, tree.place, simulation.step() + 1);
+      REQUIRE(std::abs(sum(tree.vigour) - root) <= 1e-9 * root);
+    }
+  }
+}
+
+}  // namespace
+
 TEST_CASE("allocation: what the buds are offered is what the root has, at every step of every preset") {
   for (const std::string& preset : growth_presets()) {
-    for (const char* model : {"priority", "borchert-honda"}) {
-      for (const char* demand : {"sum", "mean"}) {
-        if (std::string(model) == "priority" && std::string(demand) == "mean") continue;
-        INFO(preset << " " << model << " " << demand);
-        Parameters parameters =
-            growth_parameters(preset, {std::string("growth.allocation=") + model,
-                                       std::string("growth.demand=") + demand, "growth.demand_exponent=1.7"});
-        for (TreePlace& tree : parameters.trees) {
-          tree.allocation = parameters.allocation;
-          tree.demand = parameters.demand;
-          tree.demand_exponent = parameters.demand_exponent;
-        }
-        parameters.steps = std::min(parameters.steps, 12);
-        Simulation simulation(parameters);
-        while (simulation.step() < parameters.steps) {
-          REQUIRE(simulation.advance());
-          simulation.sense();
-          for (const GrowingTree& tree : simulation.trees()) {
-            if (tree.sums[0].total() <= 0.0) continue;
-            const double root = root_vigour(tree.sums, tree.place, simulation.step() + 1);
-            REQUIRE(std::abs(sum(tree.vigour) - root) <= 1e-9 * root);
-          }
-        }
-      }
+    INFO(preset);
+    check_conservation(growth_parameters(preset));
+  }
+}
+
+TEST_CASE("allocation: so it is with every model and demand, whatever the preset") {
+  const std::vector<std::vector<std::string>> models = {
+      {"growth.allocation=priority"},
+      {"growth.allocation=borchert-honda", "growth.demand=sum"},
+      {"growth.allocation=borchert-honda", "growth.demand=mean", "growth.demand_exponent=1.7"}};
+  for (const std::string& preset : growth_presets()) {
+    for (const std::vector<std::string>& model : models) {
+      INFO(preset << " " << model.front() << " " << model.back());
+      Parameters parameters = growth_parameters(preset, model);
+      parameters.steps = std::min(parameters.steps, 12);
+      check_conservation(parameters);
     }
   }
 }

@@ -1,10 +1,13 @@
 // What trees share a world with: obstacles, markers, the sun, each other.
 
+#include <fstream>
+
 #include "common/skeleton/passes.h"
 #include "growth/allocation.h"
 #include "growth/engine.h"
 #include "growth/simulation.h"
 #include "tests/catch.h"
+#include "tests/folder.h"
 #include "tests/growth/runs.h"
 
 using namespace ramify;
@@ -92,7 +95,11 @@ TEST_CASE("world: each tree may have values of its own, and has the config's els
 }
 
 TEST_CASE("world: no internode runs through an obstacle, however thin or round") {
+  const Folder folder;
+  std::ofstream(folder.file("tent.obj")) << "v -1 0.8 -1\nv 1 0.8 -1\nv 1 0.8 1\nv -1 0.8 1\nv 0 1.6 0\n"
+                                            "f 1 2 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n";
   const std::vector<std::string> volumes = {
+      R"({shape = "mesh", file = ")" + folder.file("tent.obj") + R"("})",
       R"({shape = "box", center = [0.3, 1.0, 0.0], size = [0.02, 4.0, 4.0]})",
       R"({shape = "sphere", center = [0.0, 1.2, 0.1], radius = 0.4})",
       R"({shape = "cylinder", center = [0.0, 0.9, 0.0], radius = 3.0, height = 0.01})"};
