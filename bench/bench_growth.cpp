@@ -140,7 +140,8 @@ void print_goals(const Results& results, const Options& options) {
   GoalTable table;
   table.add("growth to 640,000 internodes, one thread", seconds_of(full), " s", Goal{1.0, 0.35});
   table.add("  its peak memory, the program included", peak_megabytes_of(full), " MB", Goal{130.0});
-  table.add("  of it the program and its libraries, before anything grows", program_megabytes_of(full), " MB");
+  table.add("  of it the program and its libraries, before anything grows", program_megabytes_of(full),
+            " MB");
   table.add("  two threads", seconds_of(results.find(threads_name(kFullSteps))), " s");
   table.add("the plain version against it", results.ratio(plain_name(kFullSteps), size_name(kFullSteps)), "x",
             Goal{7.0, 18.0, false});

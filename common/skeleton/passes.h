@@ -23,8 +23,8 @@ std::vector<std::uint16_t> strahler_orders(const Skeleton& skeleton);
 
 /// Sets `diameter` by the pipe model (Shinozaki et al. 1964; Palubicki et al. 2009, 4.4) over all nodes of
 /// the skeleton, shed ones included: a branch never gets thinner. A root node is as wide as its children
-/// together. `lost_tips`, if given, has one entry a node: tips of children that are no longer in the skeleton.
-/// Remembers the model in the skeleton. Throws InputError if model.exponent <= 0.
+/// together. `lost_tips`, if given, has one entry a node: tips of children that are no longer in the
+/// skeleton. Remembers the model in the skeleton. Throws InputError if model.exponent <= 0.
 void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model,
                            const std::vector<std::uint32_t>& lost_tips = {});
 

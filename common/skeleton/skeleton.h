@@ -58,8 +58,8 @@ struct Skeleton {
 /// node's parent must be kept. O(n).
 Skeleton subset(const Skeleton& skeleton, const std::vector<bool>& keep);
 
-/// Several trees as one: all root nodes first, then the internodes tree by tree. Axis j of tree i of n becomes
-/// axis j * n + i. All must have the same attributes. O(n).
+/// Several trees as one: all root nodes first, then the internodes tree by tree. Axis j of tree i of n
+/// becomes axis j * n + i. All must have the same attributes. O(n).
 Skeleton joined(const std::vector<Skeleton>& trees);
 
 /// What is wrong with the skeleton, one sentence each, naming index, value and limit; empty if it is sound.
