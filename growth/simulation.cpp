@@ -53,9 +53,7 @@ Simulation::Simulation(const Parameters& world, bool with_history)
     tree.plant = seedling(place, is_light ? shadow_.site_of(voxel) : 0);
     if (is_light && world.casters == Casters::buds) changes_.added.push_back(voxel);
     if (with_history) tree.history.emplace().record(tree.plant, 0);
-    if (markers_) {
-      markers_->occupy(tree.plant.position, occupied_radius(place, 0));
-    }
+    if (markers_) markers_->occupy(tree.plant.position, occupied_radius(place, 0));
   }
   shadow_.cast(changes_.added);
   changes_.added.clear();
