@@ -2,61 +2,135 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/base/errors.h"
 #include "common/base/rng.h"
 
 namespace ramify::pathplan {
 namespace {
 
-/// Nodes but the root for which is_wanted is true.
-template <class Wanted>
-std::vector<std::uint32_t> candidates(std::span<const Vec3> nodes, const Wanted& is_wanted) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t node = 1; node < nodes.size(); ++node) {
-    if (is_wanted(nodes[node])) found.push_back(node);
-  }
-  return found;
+bool is_in_place(const Candidates& candidates, const EndpointWish& wish, std::uint32_t node) {
+  if (candidates.is_fit && !candidates.is_fit(node)) return false;
+  if (wish.kind == EndpointKind::random || !candidates.region) return true;
+  const Vec3& position = candidates.nodes[node];
+  if (!candidates.region->contains(position)) return false;
+  return wish.kind == EndpointKind::region ||
+         candidates.region->outer_depth(position) <= wish.shell_thickness;
 }
 
-std::vector<std::uint32_t> candidates(std::span<const Vec3> nodes, const Level& level) {
-  if (level.endpoints == EndpointKind::random) return candidates(nodes, [](const Vec3&) { return true; });
-  const Solid region(endpoint_region(level));
-  if (level.endpoints == EndpointKind::region) {
-    return candidates(nodes, [&](const Vec3& node) { return region.contains(node); });
-  }
-  return candidates(nodes, [&](const Vec3& node) {
-    return region.contains(node) && region.outer_depth(node) <= level.shell_thickness;
-  });
-}
-
-std::string place(const Level& level) {
-  switch (level.endpoints) {
-    case EndpointKind::random:
-      return "beside the root";
+std::string place_name(const EndpointWish& wish) {
+  switch (wish.kind) {
     case EndpointKind::region:
       return "in the region";
     case EndpointKind::shell:
-      return fmt::format("in the shell of {} m", level.shell_thickness);
+      return fmt::format("in the shell of {} m", wish.shell_thickness);
+    default:
+      return "beside the root";
   }
-  return {};
+}
+
+/// `wanted` of `pool`, or all of it. The first steps of Fisher and Yates's shuffle.
+std::vector<std::uint32_t> drawn(std::vector<std::uint32_t> pool, std::size_t wanted, Rng& rng) {
+  wanted = std::min(wanted, pool.size());
+  for (std::size_t i = 0; i < wanted; ++i) std::swap(pool[i], pool[i + rng.below(pool.size() - i)]);
+  pool.resize(wanted);
+  return pool;
+}
+
+std::vector<std::uint32_t> random_endpoints(const Candidates& candidates, const EndpointWish& wish) {
+  std::vector<std::uint32_t> pool;
+  for (std::uint32_t node = 1; node < candidates.nodes.size(); ++node) {
+    if (is_in_place(candidates, wish, node)) pool.push_back(node);
+  }
+  const auto wanted = static_cast<std::size_t>(wish.b);
+  if (pool.size() < wanted && wish.must_be_all) {
+    throw RunError(
+        fmt::format("b: {} endpoints wanted, {} nodes {} (more nodes, fewer endpoints or a larger place)",
+                    wanted, pool.size(), place_name(wish)));
+  }
+  Rng rng = Rng::stream(wish.seed, Stream::endpoint, 0);
+  return drawn(std::move(pool), wanted, rng);
+}
+
+std::vector<std::uint32_t> endpoints_by_subvolume(const Candidates& candidates, const EndpointWish& wish) {
+  const std::uint32_t count = *std::max_element(candidates.subvolumes.begin(), candidates.subvolumes.end());
+  std::vector<std::vector<std::uint32_t>> pools(count);
+  for (std::uint32_t node = 1; node < candidates.nodes.size(); ++node) {
+    const std::uint32_t subvolume = candidates.subvolumes[node];
+    if (subvolume > 0 && is_in_place(candidates, wish, node)) pools[subvolume - 1].push_back(node);
+  }
+  std::vector<std::uint32_t> chosen;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::size_t wanted =
+        static_cast<std::size_t>(wish.b) / count + (i < static_cast<std::size_t>(wish.b) % count ? 1 : 0);
+    if (pools[i].size() < wanted && wish.must_be_all) {
+      throw RunError(
+          fmt::format("b: {} endpoints wanted in sphere {}, {} nodes there (more nodes, fewer endpoints or "
+                      "larger spheres)",
+                      wanted, i + 1, pools[i].size()));
+    }
+    Rng rng = Rng::stream(wish.seed, Stream::endpoint, 0, i + 1);
+    const std::vector<std::uint32_t> some = drawn(std::move(pools[i]), wanted, rng);
+    chosen.insert(chosen.end(), some.begin(), some.end());
+  }
+  return chosen;
+}
+
+std::vector<std::uint32_t> manual_endpoints(const Candidates& candidates, const EndpointWish& wish) {
+  std::vector<std::uint32_t> chosen;
+  for (std::size_t i = 0; i < wish.points.size(); ++i) {
+    const Vec3& point = wish.points[i].position;
+    const auto nearest =
+        std::min_element(candidates.nodes.begin(), candidates.nodes.end(), [&](const Vec3& a, const Vec3& b) {
+          return glm::dot(a - point, a - point) < glm::dot(b - point, b - point);
+        });
+    const auto node = static_cast<std::uint32_t>(nearest - candidates.nodes.begin());
+    if (node == 0) {
+      throw RunError(fmt::format("points.{}: the node nearest to [{}, {}, {}] is the root (farther away)",
+                                 i + 1, point.x, point.y, point.z));
+    }
+    if (std::find(chosen.begin(), chosen.end(), node) == chosen.end()) chosen.push_back(node);
+  }
+  return chosen;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> choose_endpoints(std::span<const Vec3> nodes, const Level& level,
-                                            std::uint64_t seed) {
-  std::vector<std::uint32_t> chosen = candidates(nodes, level);
-  const auto wanted = static_cast<std::size_t>(level.b);
-  if (chosen.size() < wanted) {
-    throw RunError(
-        fmt::format("b: {} endpoints wanted, {} nodes {} (more nodes, fewer endpoints or a larger place)",
-                    wanted, chosen.size(), place(level)));
+std::vector<std::uint32_t> choose_endpoints(const Candidates& candidates, const EndpointWish& wish) {
+  if (wish.kind == EndpointKind::manual) return manual_endpoints(candidates, wish);
+  if (!candidates.subvolumes.empty()) return endpoints_by_subvolume(candidates, wish);
+  return random_endpoints(candidates, wish);
+}
+
+std::vector<std::uint32_t> choose_nearby_endpoints(const Graph& graph, const PathUnion& paths,
+                                                   const Stage& stage, std::size_t number, bool must_be_all,
+                                                   std::uint64_t seed) {
+  std::vector<bool> is_seen(graph.nodes.size(), false);
+  std::vector<std::uint32_t> ring(paths.nodes());  // nodes that are as many edges away
+  for (const std::uint32_t node : ring) is_seen[node] = true;
+  std::vector<std::uint32_t> pool;
+  for (int hop = 0; hop < stage.hops; ++hop) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t node : ring) {
+      for (const Link& link : graph.links_of(node)) {
+        if (is_seen[link.node]) continue;
+        is_seen[link.node] = true;
+        next.push_back(link.node);
+      }
+    }
+    pool.insert(pool.end(), next.begin(), next.end());
+    ring = std::move(next);
   }
-  // The first steps of Fisher and Yates's shuffle.
-  Rng rng = Rng::stream(seed, Stream::endpoint, 0);
-  for (std::size_t i = 0; i < wanted; ++i) std::swap(chosen[i], chosen[i + rng.below(chosen.size() - i)]);
-  chosen.resize(wanted);
-  return chosen;
+  const auto wanted = static_cast<std::size_t>(stage.b);
+  if (pool.size() < wanted && must_be_all) {
+    throw RunError(
+        fmt::format("stages.{}.b: {} endpoints wanted, {} nodes within {} hops of the paths (fewer endpoints "
+                    "or more hops)",
+                    number, wanted, pool.size(), stage.hops));
+  }
+  Rng rng = Rng::stream(seed, Stream::endpoint, number);
+  return drawn(std::move(pool), wanted, rng);
 }
 
 }  // namespace ramify::pathplan

@@ -5,119 +5,169 @@
 #include <algorithm>
 
 #include "common/base/errors.h"
+#include "common/base/rng.h"
 #include "common/base/stopwatch.h"
-#include "pathplan/edge_rules.h"
-#include "pathplan/endpoints.h"
-#include "pathplan/graph.h"
+#include "common/skeleton/passes.h"
+#include "pathplan/levels.h"
 #include "pathplan/parameter_check.h"
-#include "pathplan/poisson_disc.h"
-#include "pathplan/shortest_paths.h"
-#include "pathplan/tree.h"
-#include "pathplan/weights.h"
-#include "pathplan/yao_graph.h"
+#include "pathplan/widths.h"
 
 namespace ramify::pathplan {
 namespace {
 
-Graph make_graph(const Level& level, Nodes nodes, std::uint64_t seed, const std::stop_token& stop) {
-  Graph graph;
-  graph.nodes = std::move(nodes.position);
-  const EdgeRules rules(level.volume, graph.nodes, level.max_edge * nodes.spacing);
-  graph.edges = yao_edges(graph.nodes, rules, level.sectors, nodes.spacing, stop);
-  assign_random_weights(
-      graph,
-      {.exponent = level.weight_exponent, .low = level.weight_low, .high = level.weight_high, .seed = seed});
-  link_nodes(graph);
-  return graph;
+LevelPlan stem_plan(const Parameters& parameters) {
+  return {.levels = std::span(parameters.levels).first(planned_levels(parameters)),
+          .refine = parameters.refine,
+          .lifespan = parameters.lifespan,
+          .light = parameters.light,
+          .seed = parameters.seed};
 }
 
-/// Throws unless all endpoints are reached.
-void require_reached(const ShortestPaths& paths, std::span<const std::uint32_t> endpoints, double max_edge) {
-  const auto unreachable = std::count_if(endpoints.begin(), endpoints.end(),
-                                         [&](std::uint32_t node) { return !paths.is_reached(node); });
-  if (unreachable == 0) return;
-  throw RunError(
-      fmt::format("{} of {} endpoints cannot be reached from the root (edges are at most {:.3g} m long: "
-                  "raise nodes or max_edge, or make the volume's thin places and overlaps wider)",
-                  unreachable, endpoints.size(), max_edge));
+LevelPlan root_plan(const Parameters& parameters) {
+  return {.levels = parameters.roots,
+          .axis = -kUp,
+          .seed = Rng::stream(parameters.seed, Stream::root_graphs, 0).next()};
 }
 
-ReportGroup graph_statistics(const Graph& graph, const ShortestPaths& paths) {
-  const bool is_connected =
-      std::none_of(paths.cost.begin(), paths.cost.end(), [](double c) { return c == kUnreached; });
-  const auto nodes = static_cast<double>(graph.nodes.size());
-  const auto edges = static_cast<double>(graph.edges.size());
+/// Throws, or warns, if endpoints are not reached.
+void tell_unreachable(const PlannedTree& tree, Unreachable unreachable, Report& report) {
+  if (tree.counts.unreachable == 0) return;
+  const std::string problem = fmt::format("{} of {} endpoints cannot be reached from the root",
+                                          tree.counts.unreachable, tree.counts.endpoints);
+  if (unreachable == Unreachable::error) {
+    throw RunError(
+        problem +
+        " (raise nodes or max_edge, make the volume's thin places and overlaps wider, or leave them "
+        "out: pathplan.unreachable = \"warn\")");
+  }
+  report.warnings.push_back(problem + ": they are left out");
+}
+
+ReportGroup first_graph_report(const PlannedGraph& first) {
+  const auto nodes = static_cast<double>(first.graph.nodes.size());
+  const auto edges = static_cast<double>(first.graph.edges.size());
   return {"graph",
           {{"nodes", nodes},
            {"edges", edges},
            {"edges_per_node", edges / nodes},
-           {"components", is_connected ? 1.0 : static_cast<double>(component_count(graph))},
-           {"unreachable", 0.0}}};  // a run with unreachable endpoints throws
+           {"components", static_cast<double>(first.components)},
+           {"unreachable", static_cast<double>(first.unreachable)}}};
 }
 
-Layer graph_layer(const Graph& graph) {
-  return {"graph", LineLayer{.points = graph.nodes,
-                             .point_values = std::vector<double>(graph.nodes.size(), 0.0),
-                             .lines = graph.edges,
-                             .values = {graph.weights.begin(), graph.weights.end()}}};
+ReportGroup all_graphs_report(const GraphCounts& counts) {
+  return {"all_graphs",
+          {{"graphs", static_cast<double>(counts.graphs)},
+           {"nodes", static_cast<double>(counts.nodes)},
+           {"edges", static_cast<double>(counts.edges)},
+           {"endpoints", static_cast<double>(counts.endpoints)}}};
 }
 
-Layer endpoint_layer(const Graph& graph, std::span<const std::uint32_t> endpoints) {
+Layer graph_layer(const PlannedGraph& planned) {
+  const Graph& graph = planned.graph;
+  LineLayer layer{.points = graph.nodes,
+                  .point_values = std::vector<double>(graph.nodes.size(), 0.0),
+                  .lines = graph.edges,
+                  .values = {graph.weights.begin(), graph.weights.end()}};
+  std::copy(planned.subvolumes.begin(), planned.subvolumes.end(), layer.point_values.begin());
+  if (planned.guides.empty()) return {"graph", std::move(layer)};
+  layer.lines.clear();
+  layer.values.clear();
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const auto [a, b] = graph.edges[i];
+    layer.lines.insert(layer.lines.end(), {{a, b}, {b, a}});
+    layer.values.insert(layer.values.end(), planned.guided_costs[i].begin(), planned.guided_costs[i].end());
+  }
+  return {"graph", std::move(layer)};
+}
+
+Layer endpoint_layer(const PlannedTree& tree) {
   PointLayer layer;
-  for (const std::uint32_t node : endpoints) layer.points.push_back(graph.nodes[node]);
+  for (std::size_t level = 0; level < tree.tips.size(); ++level) {
+    for (const Tip& tip : tree.tips[level]) {
+      layer.points.push_back(tree.skeleton.position[tip.node]);
+      layer.values.push_back(static_cast<double>(level + 1));
+    }
+  }
   return {"endpoints", std::move(layer)};
 }
 
-/// Everything but a stopped run's skeleton; false if the run is stopped.
-bool plan(const Parameters& parameters, const Taper& taper, const RunContext& context, RunResult& result) {
-  const Level& level = parameters.levels.front();
-  const std::uint64_t seed = parameters.seed;
-  Stopwatch watch;
+Layer guiding_layer(const PlannedGraph& planned) {
+  VectorLayer layer{.points = planned.graph.nodes, .vectors = {}};
+  for (const Guide& guide : planned.guides) layer.vectors.push_back(guide.vector);
+  return {"guiding", std::move(layer)};
+}
 
-  Nodes nodes = scatter_nodes(level.volume, parameters.root,
-                              {.nodes = level.nodes, .spacing = level.spacing, .seed = seed}, context.stop,
-                              [&](double done, double total) {
-                                context.report({"nodes", done, total, "node"});
-                              });
-  if (context.stop.stop_requested()) return false;
-  const double max_edge = level.max_edge * nodes.spacing;
-  const std::vector<std::uint32_t> endpoints = choose_endpoints(nodes.position, level, seed);
+void make_layers(const PlannedTree& tree, const RunContext& context, std::vector<Layer>& layers) {
+  if (context.wants("graph")) layers.push_back(graph_layer(tree.first));
+  if (context.wants("endpoints")) layers.push_back(endpoint_layer(tree));
+  if (context.wants("guiding")) layers.push_back(guiding_layer(tree.first));
+}
 
-  watch.lap("nodes");
-  context.report({.stage = "graph"});
-  const Graph graph = make_graph(level, std::move(nodes), seed, context.stop);
-  if (context.stop.stop_requested()) return false;
-
-  watch.lap("graph");
-  context.report({.stage = "paths"});
-  const ShortestPaths paths = shortest_paths(graph, 0, context.stop);
-  if (context.stop.stop_requested()) return false;
-  require_reached(paths, endpoints, max_edge);
-  result.report.groups.push_back(graph_statistics(graph, paths));
-
-  watch.lap("paths");
-  context.report({.stage = "tree"});
-  result.skeleton = make_tree(graph, paths, endpoints, taper);
-  if (context.wants("graph")) result.layers.push_back(graph_layer(graph));
-  if (context.wants("endpoints")) result.layers.push_back(endpoint_layer(graph, endpoints));
-  watch.lap("tree");
-  result.report.seconds = watch.seconds();
-  return true;
+/// Widths, axes and orders for what was planned.
+Skeleton finished(PlannedTree& planned, std::span<const Level> levels, Kind kind,
+                  const Parameters& parameters) {
+  Skeleton tree = std::move(planned.skeleton);
+  tree.kind.assign(tree.node_count(), kind);
+  if (parameters.widths == WidthModel::pipe) {
+    assign_piped_widths(tree, parameters.pipe_exponent, parameters.trunk_diameter, parameters.tip_diameter);
+  } else {
+    std::vector<TaperedTips> tapered;
+    for (std::size_t level = 0; level < planned.tips.size(); ++level) {
+      TaperedTips& tips = tapered.emplace_back();
+      tips.zeta = levels[level].zeta;
+      for (const Tip& tip : planned.tips[level]) tips.nodes.push_back(tip.node);
+    }
+    assign_tapered_widths(tree, tapered, planned.first.edge_length, parameters.trunk_diameter,
+                          parameters.tip_diameter);
+  }
+  assign_axes(tree);
+  return tree;
 }
 
 }  // namespace
+
+std::vector<std::string> Engine::layers(const Parameters& parameters) {
+  std::vector<std::string> names = {"graph", "endpoints"};
+  if (parameters.levels.front().weights != WeightKind::random) names.emplace_back("guiding");
+  return names;
+}
 
 std::vector<std::string> Engine::check(const Parameters& parameters) {
   return check_parameters(parameters);
 }
 
 RunResult Engine::run(const Parameters& parameters, const RunContext& context) {
-  const Taper taper{.zeta = parameters.levels.front().zeta,
-                    .trunk_diameter = parameters.trunk_diameter,
-                    .tip_diameter = parameters.tip_diameter};
+  const Surroundings surroundings(parameters);
   RunResult result;
-  result.is_complete = plan(parameters, taper, context, result);
-  if (!result.is_complete) result.skeleton = bare_root(parameters.root, taper);
+  Stopwatch watch;
+  const LevelPlan plan = stem_plan(parameters);
+  PlannedTree planned = plan_levels(plan, parameters.root, surroundings, context, watch);
+  result.is_complete = planned.is_complete;
+  GraphCounts counts = planned.counts;
+  if (!planned.tips.empty()) {
+    tell_unreachable(planned, parameters.unreachable, result.report);
+    result.report.groups.push_back(first_graph_report(planned.first));
+    make_layers(planned, context, result.layers);
+  }
+
+  std::vector<Skeleton> parts;
+  if (result.is_complete && !parameters.roots.empty()) {
+    Stopwatch unbooked;  // their stages are one of ours
+    const LevelPlan below = root_plan(parameters);
+    PlannedTree roots = plan_levels(below, parameters.root, surroundings, context, unbooked);
+    result.is_complete = roots.is_complete;
+    tell_unreachable(roots, parameters.unreachable, result.report);
+    counts.add(roots.counts);
+    parts.push_back(finished(roots, below.levels, Kind::root, parameters));
+    watch.lap("roots");
+  }
+  result.report.groups.push_back(all_graphs_report(counts));
+
+  context.report({.stage = "tree"});
+  parts.insert(parts.begin(), finished(planned, plan.levels, Kind::stem, parameters));
+  result.skeleton = parts.size() == 1 ? std::move(parts.front()) : joined(parts);
+  watch.lap("tree");
+  result.report.seconds = watch.seconds();
   return result;
 }
 

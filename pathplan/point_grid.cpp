@@ -14,6 +14,7 @@ PointGrid::PointGrid(std::span<const Vec3> points, double edge) {
   if (points.empty()) box.include(Vec3(0.0));
   low_ = box.low;
 
+  // An infinite edge makes one cell.
   const double cells_max = kMaxCellsPerPoint * static_cast<double>(points.size() + 1);
   Vec3 count = glm::floor(box.size() / edge) + 1.0;
   while (count.x * count.y * count.z > cells_max) {

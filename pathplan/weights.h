@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "pathplan/domain.h"
 #include "pathplan/graph.h"
 
 namespace ramify::pathplan {
@@ -18,5 +19,9 @@ struct RandomWeights {
 /// Sets graph.weights, one an edge. A weight depends on the seed and the numbers of the edge's ends alone.
 /// O(edges) on all threads.
 void assign_random_weights(Graph& graph, const RandomWeights& weights);
+
+/// Multiplies each edge's weight by the cost factors of the surroundings at its middle. O(edges) on all
+/// threads.
+void apply_cost_factors(Graph& graph, const Domain& domain);
 
 }  // namespace ramify::pathplan

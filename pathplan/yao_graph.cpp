@@ -16,6 +16,9 @@ constexpr std::uint32_t kNone = 0xffffffff;
 // Cells a task: enough that starting one does not show.
 constexpr std::size_t kGrain = 256;
 
+// So few nodes are looked at faster than sorted into cells.
+constexpr std::size_t kOneCellUpTo = 160;
+
 /// `condition ? yes : no`, of which the compiler would make a branch.
 template <class T>
 T picked(bool condition, T yes, T no) {
@@ -41,6 +44,24 @@ struct CubeFaces {
     return picked(is_x, along_x, picked(is_y, along_y, along_z));
   }
   static int side(int sector, int axis) { return axis != sector / 2 ? 0 : (sector % 2 != 0 ? -1 : 1); }
+};
+
+/// The directions to a cube's faces, numbered as above, and to its corners, numbered as octants: that which
+/// is nearest by angle, a face's if two are.
+struct FacesAndCorners {
+  static constexpr int kCount = CubeFaces::kCount + Octants::kCount;
+  static int of(const Vec3& d) {
+    const Vec3 a = glm::abs(d);
+    const double most = std::max({a.x, a.y, a.z});
+    const double sum = a.x + a.y + a.z;
+    // The cosine to a face is most / |d|, to a corner sum / (sqrt(3) |d|).
+    const bool is_corner = sum * sum > 3.0 * most * most;
+    return picked(is_corner, CubeFaces::kCount + Octants::of(d), CubeFaces::of(d));
+  }
+  static int side(int sector, int axis) {
+    return sector < CubeFaces::kCount ? CubeFaces::side(sector, axis)
+                                      : Octants::side(sector - CubeFaces::kCount, axis);
+  }
 };
 
 /// The best node found for a sector so far.
@@ -76,7 +97,7 @@ class Search {
   using Targets = std::array<std::uint32_t, Sectors::kCount>;  // kNone in an empty sector
 
   Search(std::span<const Vec3> nodes, const EdgeRules& rules, double spacing)
-      : nodes_(nodes), rules_(rules), grid_(nodes, kCellSpacings * spacing) {}
+      : nodes_(nodes), rules_(rules), grid_(nodes, cell_edge(nodes.size(), spacing)) {}
 
   std::size_t cell_count() const { return grid_.cell_count(); }
 
@@ -94,6 +115,10 @@ class Search {
   }
 
  private:
+  static double cell_edge(std::size_t nodes, double spacing) {
+    return nodes <= kOneCellUpTo ? std::numeric_limits<double>::infinity() : kCellSpacings * spacing;
+  }
+
   /// All sectors at once in the block; then each on its own that may have a nearer node farther out, or
   /// whose node is not allowed.
   Targets targets_of(std::uint32_t node, const Block& block, const Box& seen) const {
@@ -205,9 +230,10 @@ std::vector<Edge> edges_of(std::span<const Vec3> nodes, const EdgeRules& rules, 
 
 std::vector<Edge> yao_edges(std::span<const Vec3> nodes, const EdgeRules& rules, int sectors, double spacing,
                             std::stop_token stop) {
-  assert(sectors == 6 || sectors == 8);
-  return sectors == 6 ? edges_of<CubeFaces>(nodes, rules, spacing, stop)
-                      : edges_of<Octants>(nodes, rules, spacing, stop);
+  assert(sectors == 6 || sectors == 8 || sectors == 14);
+  if (sectors == 6) return edges_of<CubeFaces>(nodes, rules, spacing, stop);
+  if (sectors == 14) return edges_of<FacesAndCorners>(nodes, rules, spacing, stop);
+  return edges_of<Octants>(nodes, rules, spacing, stop);
 }
 
 }  // namespace ramify::pathplan

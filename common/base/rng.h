@@ -11,12 +11,19 @@ namespace ramify {
 enum class Stream : std::uint64_t {
   bud,          // growth: a bud's default direction, by (axis, rank)
   axis,         // growth: an axis's first azimuth
-  dart,         // pathplan: a Poisson dart, by (cell, pass)
+  dart,         // pathplan: the Poisson darts of a row of cells, by (row, pass)
   surplus,      // pathplan: which nodes of the last pass are dropped
   edge_weight,  // pathplan: by (lower node, higher node)
-  endpoint,     // pathplan: which nodes become endpoints
+  endpoint,     // pathplan: which nodes become endpoints, by stage
   marker,       // growth: where the i-th marker point of a volume is
   sky,          // growth: the uneven light of a voxel, by (x and y, z)
+  subgraph,     // pathplan: the seed of a graph around an endpoint, by (level, endpoint)
+  root_graphs,  // pathplan: the seed of all graphs of the roots
+  v_g,          // pathplan: where a graph is turned to, by (level, endpoint)
+  lifespan,     // pathplan: of an endpoint, by (level, endpoint)
+  light,        // pathplan: what the light deals out, by level
+  turn,         // pathplan: of a guiding vector, by node
+  spheres,      // pathplan: the seed of the spheres that refine a crown
 };
 
 class Rng {

@@ -45,7 +45,8 @@ std::string allowed_values(const FieldRow& row) {
     case FieldKind::vector:
       return "three numbers [x, y, z], each " + range_text(row.info);
     case FieldKind::schedule:
-      return fmt::format("a number, {}, or [[step, value], ...] with rising steps", range_text(row.info));
+      return fmt::format("a number, {}, or [[{}, value], ...] with rising {}s", range_text(row.info),
+                         row.info.over, row.info.over);
     case FieldKind::sketch:
       return fmt::format("a list of points [[x, y], ...], each number {}", range_text(row.info));
     case FieldKind::path:

@@ -42,6 +42,7 @@ struct FieldInfo {
   std::string help = {};                  // one line
   std::string source = {};                // paper and equation
   std::vector<std::string> choices = {};  // names of an enum's values 0, 1, ...
+  std::string over = "step";              // what a schedule's first numbers are
   bool is_top_level = false;    // stands at the top of a config, not in the engine's table (seed, steps)
   bool inherits = false;        // list: an item starts as a copy of the one before it
   bool inherits_owner = false;  // list: an item has its owner's value where it does not set its own

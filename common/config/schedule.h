@@ -1,4 +1,4 @@
-// A parameter that may change in the course of a tree's life.
+// A parameter that may change in the course of a tree's life, or along its branches.
 #pragma once
 
 #include <utility>
@@ -6,7 +6,8 @@
 
 namespace ramify {
 
-/// Piecewise linear in the step, constant before the first and after the last point. A constant is one point.
+/// Piecewise linear in the step (or whatever else the table's row names), constant before the first and after
+/// the last point. A constant is one point.
 class Schedule {
  public:
   Schedule(double constant) : points_{{0.0, constant}} {}  // NOLINT: a number is a schedule

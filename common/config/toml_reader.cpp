@@ -302,15 +302,16 @@ class Reader {
     for (const toml::node& item : *items) {
       const toml::array* point = item.as_array();
       if (!point || point->size() != 2) {
-        fail(item, path, fmt::format("a schedule's point is [step, value] ({})", allowed_values(row)));
+        fail(item, path,
+             fmt::format("a schedule's point is [{}, value] ({})", row.info.over, allowed_values(row)));
       }
       const auto step = point->get(0)->value<double>();
       if (!step || !std::isfinite(*step)) {
-        fail(item, path, fmt::format("a schedule's step is a number ({})", allowed_values(row)));
+        fail(item, path, fmt::format("a schedule's {} is a number ({})", row.info.over, allowed_values(row)));
       }
       if (!points.empty() && *step <= points.back().first) {
         fail(item, path,
-             fmt::format("step {} does not rise above {} ({})", *step, points.back().first,
+             fmt::format("{} {} does not rise above {} ({})", row.info.over, *step, points.back().first,
                          allowed_values(row)));
       }
       points.emplace_back(*step, number(row, *point->get(1), path));

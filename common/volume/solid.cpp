@@ -49,6 +49,10 @@ std::optional<std::uint32_t> Solid::convex_part(const Vec3& point) const {
   return std::nullopt;
 }
 
+bool Solid::is_convex() const {
+  return parts_.size() == 1 && parts_.front().is_convex;
+}
+
 Box Solid::bounds() const {
   Box box;
   for (const Part& part : parts_) box.include(part.bounds);

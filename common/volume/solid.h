@@ -39,6 +39,9 @@ class Solid {
   /// number lies inside the volume.
   std::optional<std::uint32_t> convex_part(const Vec3& point) const;
 
+  /// True only if all of a segment whose ends are inside is inside.
+  bool is_convex() const;
+
   /// See outer_depth() in volume.h.
   double outer_depth(const Vec3& point) const;
 

@@ -22,9 +22,19 @@ std::vector<Vec3> nodes_of(const Level& level, int count) {
   return scatter_nodes(level.volume, Vec3(0.0), {.nodes = count}).position;
 }
 
+/// As the engine asks for them at level 1.
+std::vector<std::uint32_t> choose(std::span<const Vec3> nodes, const Level& level, std::uint64_t seed) {
+  const Solid region(endpoint_region(level));
+  return choose_endpoints({.nodes = nodes, .region = &region}, {.kind = level.endpoints,
+                                                                .b = level.b,
+                                                                .shell_thickness = level.shell_thickness,
+                                                                .points = level.points,
+                                                                .seed = seed});
+}
+
 std::string error_of(std::span<const Vec3> nodes, const Level& level) {
   try {
-    choose_endpoints(nodes, level, 1);
+    choose(nodes, level, 1);
   } catch (const RunError& error) {
     return error.what();
   }
@@ -38,7 +48,7 @@ TEST_CASE("endpoints: b distinct nodes where their kind allows them, never the r
   for (const EndpointKind kind : {EndpointKind::random, EndpointKind::region, EndpointKind::shell}) {
     for (const std::uint64_t seed : {1, 2, 3}) {
       const Level level = level_of(kind, 300);
-      const std::vector<std::uint32_t> endpoints = choose_endpoints(nodes, level, seed);
+      const std::vector<std::uint32_t> endpoints = choose(nodes, level, seed);
       CHECK(endpoints.size() == 300);
       CHECK(std::set<std::uint32_t>(endpoints.begin(), endpoints.end()).size() == 300);
       const Volume& crown = level.volume.parts[1];
@@ -58,8 +68,7 @@ TEST_CASE("endpoints: a region of one's own takes the crown's place") {
   const std::vector<Vec3> nodes = nodes_of({}, 6000);
   Level level = level_of(EndpointKind::region, 20);
   level.region = {.shape = Shape::sphere, .center = {2.0, 6.0, 0.0}, .radius = 1.0};
-  for (const std::uint32_t node : choose_endpoints(nodes, level, 1))
-    CHECK(contains(level.region, nodes[node]));
+  for (const std::uint32_t node : choose(nodes, level, 1)) CHECK(contains(level.region, nodes[node]));
 }
 
 TEST_CASE("endpoints: the crown is all parts but the first, or the only one") {
@@ -76,7 +85,7 @@ TEST_CASE("endpoints: every node is as likely as every other") {
   const std::vector<Vec3> nodes = nodes_of({}, 31);
   std::vector<int> chosen(nodes.size(), 0);
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-    for (const std::uint32_t node : choose_endpoints(nodes, level_of(EndpointKind::random, 5), seed)) {
+    for (const std::uint32_t node : choose(nodes, level_of(EndpointKind::random, 5), seed)) {
       ++chosen[node];
     }
   }
@@ -87,7 +96,7 @@ TEST_CASE("endpoints: every node is as likely as every other") {
 
 TEST_CASE("endpoints: all nodes but the root may be asked for, one more is an error that counts them") {
   const std::vector<Vec3> nodes = nodes_of({}, 50);
-  CHECK(choose_endpoints(nodes, level_of(EndpointKind::random, 49), 1).size() == 49);
+  CHECK(choose(nodes, level_of(EndpointKind::random, 49), 1).size() == 49);
   CHECK(error_of(nodes, level_of(EndpointKind::random, 50)) ==
         "b: 50 endpoints wanted, 49 nodes beside the root (more nodes, fewer endpoints or a larger place)");
 

@@ -142,7 +142,7 @@ TEST_CASE("pathplan: the report has the stages and the graph's statistics") {
     CHECK(seconds >= 0.0);
   }
   CHECK(stages == std::vector<std::string>{"nodes", "graph", "paths", "tree"});
-  REQUIRE(result.report.groups.size() == 1);
+  REQUIRE(result.report.groups.size() == 2);
   CHECK(result.report.groups[0].name == "graph");
   const auto& values = result.report.groups[0].values;
   REQUIRE(values.size() == 5);
@@ -188,8 +188,9 @@ TEST_CASE("pathplan: endpoints that no path leads to are counted in an error") {
     FAIL("no error");
   } catch (const RunError& error) {
     const std::string message = error.what();
-    CHECK(message.find("100 of 100 endpoints cannot be reached from the root (edges are at most 0.") == 0);
-    CHECK(message.find("raise nodes or max_edge") != std::string::npos);
+    CHECK(message.find("100 of 100 endpoints cannot be reached from the root (raise nodes or max_edge, ") ==
+          0);
+    CHECK(message.find("pathplan.unreachable = \"warn\"") != std::string::npos);
   }
 }
 

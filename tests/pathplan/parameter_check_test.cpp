@@ -78,8 +78,6 @@ TEST_CASE("pathplan parameters: steps are levels, and there must be as many") {
         }) == "steps: 3 (there are 2 levels)");
   CHECK(problem_after([](Parameters& p, Level&) { p.levels.clear(); }) ==
         "levels: none (at least one level)");
-  CHECK(problem_after([](Parameters& p, Level&) { p.levels.resize(2); }) ==
-        "levels: 2 levels (this version plans one: steps = 1 plans the first)");
   CHECK(problem_after([](Parameters& p, Level&) {
           p.levels.resize(2);
           p.levels.back().sectors = 7;  // not planned, so not looked at
@@ -88,7 +86,7 @@ TEST_CASE("pathplan parameters: steps are levels, and there must be as many") {
 }
 
 TEST_CASE("pathplan parameters: what cannot be is named with its key and what is allowed") {
-  CHECK(problem_after([](Parameters&, Level& l) { l.sectors = 7; }) == "levels.1.sectors: 7 (6 or 8)");
+  CHECK(problem_after([](Parameters&, Level& l) { l.sectors = 7; }) == "levels.1.sectors: 7 (6, 8 or 14)");
   CHECK(problem_after([](Parameters&, Level& l) { l.weight_low = 2.0; }) ==
         "levels.1.weight_low: 2 is more than weight_high, 1 (at most as much)");
   CHECK(problem_after([](Parameters&, Level& l) { l.b = l.nodes; }) ==

@@ -30,7 +30,7 @@ TEST_CASE("nodes: exactly K, the root first, all inside and no two nearer than t
     for (const int count : {2, 17, 300, 1500}) {
       for (const std::uint64_t seed : {1, 2, 3}) {
         INFO(place.name << ", " << count << " nodes, seed " << seed);
-        const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = count, .seed = seed});
+        const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = count}, seed);
         REQUIRE(nodes.position.size() == static_cast<std::size_t>(count));
         CHECK(nodes.position.front() == place.root);
         CHECK(least_distance(nodes.position) >= nodes.spacing);
@@ -65,7 +65,7 @@ TEST_CASE("nodes: where parts overlap they are no denser") {
 
 TEST_CASE("nodes: all parts of the volume are filled alike") {
   const Volume ball{.shape = Shape::sphere, .radius = 2.0};
-  const Nodes nodes = scatter_nodes(ball, Vec3(0.0), {.nodes = 8000, .seed = 5});
+  const Nodes nodes = scatter_nodes(ball, Vec3(0.0), {.nodes = 8000}, 5);
   // Octants, and the inner ball of half the volume.
   int octants[8] = {};
   int inner = 0;
@@ -79,10 +79,10 @@ TEST_CASE("nodes: all parts of the volume are filled alike") {
 
 TEST_CASE("nodes: the seed changes them, the number of threads does not") {
   const Place place = places()[1];
-  const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 2000, .seed = 1});
-  CHECK(nodes.position != scatter_nodes(place.volume, place.root, {.nodes = 2000, .seed = 2}).position);
+  const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 2000}, 1);
+  CHECK(nodes.position != scatter_nodes(place.volume, place.root, {.nodes = 2000}, 2).position);
   const ThreadLimit limit(1);
-  CHECK(nodes.position == scatter_nodes(place.volume, place.root, {.nodes = 2000, .seed = 1}).position);
+  CHECK(nodes.position == scatter_nodes(place.volume, place.root, {.nodes = 2000}, 1).position);
 }
 
 TEST_CASE("nodes: near numbers are near places") {
@@ -99,7 +99,10 @@ TEST_CASE("nodes: a stop request ends the throwing") {
   std::stop_source stop;
   stop.request_stop();
   const Place place = places()[0];
-  CHECK(scatter_nodes(place.volume, place.root, {.nodes = 5000}, stop.get_token()).position.size() == 1);
+  const OpenDomain open(place.volume);
+  const std::vector<Vec3> roots = {place.root};
+  const PoissonDisc disc(open.solid, {.nodes = 5000}, volume_of(place.volume), roots);
+  CHECK(disc.scatter(open.domain, roots, true, 1, stop.get_token()).position.size() == 1);
 }
 
 TEST_CASE("nodes: a volume lost in its box is an error, not a lack of memory") {

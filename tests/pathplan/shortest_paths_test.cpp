@@ -15,9 +15,12 @@ using namespace ramify::test;
 
 namespace {
 
+const std::vector<std::uint32_t> kRoot = {0};
+
 Graph graph_in(const Place& place, int count, const RandomWeights& weights) {
-  const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = count, .seed = weights.seed});
-  const EdgeRules rules(place.volume, nodes.position, 3.0 * nodes.spacing);
+  const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = count}, weights.seed);
+  const OpenDomain open(place.volume);
+  const EdgeRules rules(open.domain, nodes.position, 3.0 * nodes.spacing);
   Graph graph;
   graph.nodes = nodes.position;
   graph.edges = yao_edges(nodes.position, rules, 8, nodes.spacing);
@@ -63,7 +66,7 @@ Graph graph_of(std::vector<Vec3> nodes, std::vector<Edge> edges, std::vector<flo
 TEST_CASE("paths: the cheaper of two ways is taken, and what no way leads to stays unreached") {
   const Graph graph =
       graph_of(std::vector<Vec3>(5, Vec3(0.0)), {{0, 1}, {1, 2}, {0, 2}, {3, 4}}, {1.0f, 1.5f, 3.0f, 1.0f});
-  const ShortestPaths paths = shortest_paths(graph, 0);
+  const ShortestPaths paths = shortest_paths(graph, kRoot);
   CHECK(paths.cost == std::vector<double>{0.0, 1.0, 2.5, kUnreached, kUnreached});
   CHECK(paths.parent == std::vector<std::uint32_t>{kNoParent, 0, 1, kNoParent, kNoParent});
   CHECK(paths.is_reached(2));
@@ -72,7 +75,7 @@ TEST_CASE("paths: the cheaper of two ways is taken, and what no way leads to sta
 }
 
 TEST_CASE("paths: a node without edges reaches itself") {
-  const ShortestPaths paths = shortest_paths(graph_of({Vec3(0.0)}, {}, {}), 0);
+  const ShortestPaths paths = shortest_paths(graph_of({Vec3(0.0)}, {}, {}), kRoot);
   CHECK(paths.cost == std::vector<double>{0.0});
 }
 
@@ -85,7 +88,7 @@ TEST_CASE("paths: costs are those of an independent search, whatever the weights
     for (const RandomWeights& weights : kinds) {
       INFO(place.name << ", seed " << weights.seed);
       const Graph graph = graph_in(place, 3000, weights);
-      const ShortestPaths paths = shortest_paths(graph, 0);
+      const ShortestPaths paths = shortest_paths(graph, kRoot);
       CHECK(paths.cost == costs_by_heap(graph));
       // Each node's cost is its parent's and one edge more.
       for (std::uint32_t node = 1; node < graph.nodes.size(); ++node) {
@@ -105,7 +108,7 @@ TEST_CASE(
     "paths: a node costs more than its parent even where its edge weighs nothing beside the way there") {
   const Graph graph =
       graph_of(std::vector<Vec3>(4, Vec3(0.0)), {{0, 3}, {3, 2}, {2, 1}}, {1e20f, 1.0f, 1.0f});
-  const ShortestPaths paths = shortest_paths(graph, 0);
+  const ShortestPaths paths = shortest_paths(graph, kRoot);
   CHECK(paths.cost[3] < paths.cost[2]);
   CHECK(paths.cost[2] < paths.cost[1]);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/volume/volume.h"
+#include "pathplan/domain.h"
 
 namespace ramify::test {
 
@@ -12,6 +13,15 @@ struct Place {
   std::string name;
   Volume volume;
   Vec3 root;  // in or on the volume
+};
+
+/// A volume in the world, without obstacles.
+struct OpenDomain {
+  explicit OpenDomain(const Volume& volume) : solid(volume), domain{solid, surroundings} {}
+
+  Solid solid;
+  pathplan::Surroundings surroundings;
+  pathplan::Domain domain;
 };
 
 inline std::vector<Place> places() {

@@ -61,12 +61,13 @@ std::set<Edge> as_set(const std::vector<Edge>& edges) {
 TEST_CASE("Yao graph: each node is joined to the nearest allowed node of each sector, as every pair shows") {
   for (const Place& place : places()) {
     for (const std::uint64_t seed : {1, 2}) {
-      const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 350, .seed = seed});
+      const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 350}, seed);
       for (const int sectors : {6, 8}) {
         for (const double max_edge : {1.2, 3.0, 30.0}) {
           INFO(place.name << ", seed " << seed << ", " << sectors << " sectors, max_edge " << max_edge);
           const double max_length = max_edge * nodes.spacing;
-          const EdgeRules rules(place.volume, nodes.position, max_length);
+          const OpenDomain open(place.volume);
+          const EdgeRules rules(open.domain, nodes.position, max_length);
           const std::vector<Edge> edges = yao_edges(nodes.position, rules, sectors, nodes.spacing);
           CHECK(as_set(edges).size() == edges.size());  // each once
           CHECK(as_set(edges) == edges_by_hand(nodes.position, place.volume, max_length, sectors));
@@ -88,7 +89,8 @@ TEST_CASE("Yao graph: equal distances go to the lower number, in whatever order 
     Rng rng = Rng::stream(seed, Stream::dart, 0);
     for (std::size_t i = nodes.size(); i > 1; --i) std::swap(nodes[i - 1], nodes[rng.below(i)]);
     for (const int sectors : {6, 8}) {
-      const EdgeRules rules(room, nodes, 3.0);
+      const OpenDomain open(room);
+      const EdgeRules rules(open.domain, nodes, 3.0);
       CHECK(as_set(yao_edges(nodes, rules, sectors, 1.0)) == edges_by_hand(nodes, room, 3.0, sectors));
     }
   }
@@ -97,7 +99,8 @@ TEST_CASE("Yao graph: equal distances go to the lower number, in whatever order 
 TEST_CASE("Yao graph: an edge may be exactly as long as is allowed") {
   const Volume room{.shape = Shape::sphere, .radius = 100.0};
   const std::vector<Vec3> nodes = {{0, 0, 0}, {3, 0, 0}, {0, 3.1, 0}};
-  const EdgeRules rules(room, nodes, 3.0);
+  const OpenDomain open(room);
+  const EdgeRules rules(open.domain, nodes, 3.0);
   CHECK(as_set(yao_edges(nodes, rules, 8, 1.0)) == std::set<Edge>{{0, 1}});
 }
 
@@ -105,7 +108,8 @@ TEST_CASE("Yao graph: it is the same for any number of threads") {
   const Place place = places()[1];
   const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 5000});
   const auto edges = [&] {
-    const EdgeRules rules(place.volume, nodes.position, 3.0 * nodes.spacing);
+    const OpenDomain open(place.volume);
+    const EdgeRules rules(open.domain, nodes.position, 3.0 * nodes.spacing);
     return yao_edges(nodes.position, rules, 8, nodes.spacing);
   };
   const std::vector<Edge> many = edges();
@@ -116,7 +120,8 @@ TEST_CASE("Yao graph: it is the same for any number of threads") {
 TEST_CASE("Yao graph: five to six undirected edges a node with octants, about four with cones") {
   const Volume ball{.shape = Shape::sphere, .radius = 2.0};
   const Nodes nodes = scatter_nodes(ball, Vec3(0.0), {.nodes = 8000});
-  const EdgeRules rules(ball, nodes.position, 3.0 * nodes.spacing);
+  const OpenDomain open(ball);
+  const EdgeRules rules(open.domain, nodes.position, 3.0 * nodes.spacing);
   const auto a_node = [&](int sectors) {
     return static_cast<double>(yao_edges(nodes.position, rules, sectors, nodes.spacing).size()) / 8000;
   };
@@ -129,7 +134,8 @@ TEST_CASE("Yao graph: five to six undirected edges a node with octants, about fo
 TEST_CASE("weights: length^p times a factor in its range, from the seed and the edge alone") {
   const Place place = places()[1];
   const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 2000});
-  const EdgeRules rules(place.volume, nodes.position, 3.0 * nodes.spacing);
+  const OpenDomain open(place.volume);
+  const EdgeRules rules(open.domain, nodes.position, 3.0 * nodes.spacing);
   Graph graph;
   graph.nodes = nodes.position;
   graph.edges = yao_edges(nodes.position, rules, 8, nodes.spacing);

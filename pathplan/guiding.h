@@ -1,0 +1,64 @@
+// Guiding vectors: each node has a unit vector that makes edges along it cheap, so that paths follow it. A
+// node's vector is its parent's, turned; it is known when the node's path is.
+// L. Xu and D. Mould, Procedural tree modeling with guiding vectors, Computer Graphics Forum 34(7), 2015
+// (incremental); L. Xu, Three-dimensional irregular tree modeling for special virtual environments, 2018
+// (periodic).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "common/base/geometry.h"
+#include "common/base/rng.h"
+#include "pathplan/graph.h"
+#include "pathplan/parameters.h"
+#include "pathplan/shortest_paths.h"
+
+namespace ramify::pathplan {
+
+struct Guide {
+  Vec3 vector{0.0};   // unit; 0 where the node was not reached
+  double turned = 0;  // incremental: radians in all
+  double walked = 0;  // periodic: metres since the last turn
+};
+
+/// The guiding vectors of one graph, kept from one search to the next.
+class GuidedSearch {
+ public:
+  /// The root, node 0, is guided along `axis` (unit), the middle of the trunk. The graph's weights are cost
+  /// factors: an edge of length l from u along e costs factor * l * (1 - g_u . e + epsilon).
+  /// `graph` is looked at later: it must outlive the search. O(edges).
+  GuidedSearch(const Graph& graph, const Level& level, double spacing, const Vec3& axis, std::uint64_t seed);
+
+  /// Least-cost paths from the sources, which must have been reached before (or be the root) and keep their
+  /// vectors; all others get new ones. Nodes are settled by rising cost, equal ones by the lower number.
+  /// O(edges * log(nodes in a bucket)).
+  ShortestPaths paths_from(std::span<const std::uint32_t> sources, std::stop_token stop = {});
+
+  const std::vector<Guide>& guides() const { return guides_; }
+
+  /// What the edge from one node to another costs by the vectors as they are.
+  double cost(std::uint32_t from, std::uint32_t to, double factor) const;
+
+ private:
+  Guide guide_after(std::uint32_t parent, std::uint32_t node) const;
+  Guide turned_outwards(const Guide& before, std::uint32_t node, double way) const;
+  Guide turned_by_periods(const Guide& before, std::uint32_t node, double way) const;
+  double periodic_angle(double distance, Rng& rng) const;
+  double share_of_way(std::uint32_t node) const;
+
+  const Graph& graph_;
+  const Guiding& guiding_;
+  bool is_periodic_;
+  double spacing_;  // metres
+  Vec3 axis_;
+  std::uint64_t seed_;
+  double edge_length_;  // mean, metres
+  double heaviest_;     // the greatest cost of an edge
+  double farthest_;     // distance of a node from the root, metres
+  std::vector<Guide> guides_;
+};
+
+}  // namespace ramify::pathplan
