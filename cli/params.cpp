@@ -16,7 +16,9 @@ namespace {
 
 constexpr const char* kSources = R"(
 Sources: P09 Palubicki et al. 2009, Self-organizing tree models for image synthesis; SOT the values of its public
-demo; S4 Tree Generation, a student report; XM12 Xu and Mould 2012, A procedural method for irregular tree models.
+demo; S4 Tree Generation, a student report; XM12 Xu and Mould 2012, A procedural method for irregular tree models;
+XM15 Xu and Mould 2015, Procedural tree modeling with guiding vectors; X18 Xu 2018, Three-dimensional irregular tree
+modeling for special virtual environments.
 )";
 
 struct ParamsFlags {

@@ -87,7 +87,11 @@ class Planner {
 
   Branching make_paths() {
     if (pattern_.row.weights != WeightKind::random) {
-      search_.emplace(graph_, pattern_.row, spacing_, site_.axis, site_.seed);
+      edge_length_ = mean_edge_length(graph_);
+      search_.emplace(
+          graph_, pattern_.row,
+          GuidedGraph{
+              .spacing = spacing_, .edge_length = edge_length_, .axis = site_.axis, .seed = site_.seed});
     }
     PathUnion paths(graph_.nodes.size());
     ShortestPaths found = search_from(paths.nodes());
@@ -151,10 +155,12 @@ class Planner {
 
   void hand_over_graph() {
     PlannedGraph& planned = *hooks_.graph;
-    planned.edge_length = mean_edge_length(graph_);
+    planned.edge_length = search_ ? edge_length_ : mean_edge_length(graph_);
     planned.components = is_connected_ ? 1 : component_count(graph_);
     if (search_) {
       planned.guides = search_->guides();
+    }
+    if (search_ && hooks_.wants_guided_costs) {
       for (std::size_t i = 0; i < graph_.edges.size(); ++i) {
         const auto [a, b] = graph_.edges[i];
         planned.guided_costs.push_back(
@@ -170,7 +176,8 @@ class Planner {
   const BranchingHooks& hooks_;
   Domain domain_;
   Graph graph_;
-  double spacing_ = 0.0;  // metres
+  double spacing_ = 0.0;      // metres
+  double edge_length_ = 0.0;  // mean, metres; of guiding vectors
   bool is_connected_ = true;
   std::vector<std::uint32_t> subvolumes_;  // of each node, in a refined crown
   std::optional<GuidedSearch> search_;     // of guiding vectors

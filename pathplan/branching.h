@@ -81,6 +81,7 @@ struct BranchingHooks {
   std::function<void(double done, double total)> on_nodes = {};
   std::function<void(std::string_view finished)> on_stage = {};  // "nodes", "graph", "paths"
   PlannedGraph* graph = nullptr;                                 // where to leave the graph
+  bool wants_guided_costs = false;                               // in there
 };
 
 /// Nodes, edges, weights, least-cost paths, endpoints and the union of their paths. A stop request leaves it

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -16,6 +16,9 @@ namespace ramify::pathplan {
 /// The order in which nodes are taken out: `rough`, by buckets, those of one bucket in any order (quicker; a
 /// node may have to be taken again); or `exact`, by cost, equal costs by the lower number.
 enum class QueueOrder { rough, exact };
+
+// A queue needs no more buckets than this: costs that vary very much get wider ones.
+inline constexpr double kBucketsMax = 4096.0;
 
 template <QueueOrder order>
 class BucketQueue {
@@ -29,13 +32,10 @@ class BucketQueue {
     }
   };
 
-  /// What is pushed costs at most `heaviest` more than what was taken last. `typical` is the cost of a
-  /// usual edge; it bears on the speed alone.
-  BucketQueue(double typical, double heaviest) {
-    const double width = std::max({kBucketWidth * typical, heaviest / kBucketsMax, kWidthMin});
-    buckets_per_cost_ = 1.0 / width;
-    heads_.assign(std::bit_ceil(static_cast<std::size_t>(heaviest * buckets_per_cost_) + 3), kNone);
-  }
+  /// Buckets are `width` wide. What is pushed costs at most `heaviest` more than what was taken last.
+  BucketQueue(double width, double heaviest)
+      : buckets_per_cost_(1.0 / width),
+        heads_(std::bit_ceil(static_cast<std::size_t>(heaviest / width) + 3), kNone) {}
 
   bool is_empty() const { return size_ == 0; }
 
@@ -74,11 +74,6 @@ class BucketQueue {
   }
 
  private:
-  // In typical costs. Narrower buckets are mostly empty; in wider ones more nodes are looked at again.
-  static constexpr double kBucketWidth = 0.12;
-  // Costs that vary very much, as with a large exponent, must not need as many buckets.
-  static constexpr double kBucketsMax = 4096.0;
-  static constexpr double kWidthMin = 1e-300;
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   struct Slot {
@@ -102,7 +97,7 @@ class BucketQueue {
     std::make_heap(sorted_.begin(), sorted_.end(), std::greater<>());
   }
 
-  double buckets_per_cost_ = 1.0;
+  double buckets_per_cost_;
   std::vector<std::uint32_t> heads_;  // of each bucket, its first slot
   std::vector<Slot> slots_;
   std::uint32_t free_ = kNone;  // the first slot that is not in use

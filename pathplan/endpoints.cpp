@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/base/errors.h"
 #include "common/base/rng.h"
@@ -30,48 +31,54 @@ std::string place_name(const EndpointWish& wish) {
   }
 }
 
-/// `wanted` of `pool`, or all of it. The first steps of Fisher and Yates's shuffle.
-std::vector<std::uint32_t> drawn(std::vector<std::uint32_t> pool, std::size_t wanted, Rng& rng) {
-  wanted = std::min(wanted, pool.size());
-  for (std::size_t i = 0; i < wanted; ++i) std::swap(pool[i], pool[i + rng.below(pool.size() - i)]);
-  pool.resize(wanted);
-  return pool;
+/// `wanted` of those in `pool` that are fit, or all of them. The first steps of Fisher and Yates's shuffle;
+/// only nodes that are drawn are looked at, since how deep a node is in a volume can take long to tell.
+template <class IsFit>
+std::vector<std::uint32_t> drawn(std::vector<std::uint32_t> pool, std::size_t wanted, Rng& rng,
+                                 const IsFit& is_fit) {
+  std::vector<std::uint32_t> chosen;
+  for (std::size_t i = 0; i < pool.size() && chosen.size() < wanted; ++i) {
+    std::swap(pool[i], pool[i + rng.below(pool.size() - i)]);
+    if (is_fit(pool[i])) chosen.push_back(pool[i]);
+  }
+  return chosen;
 }
 
 std::vector<std::uint32_t> random_endpoints(const Candidates& candidates, const EndpointWish& wish) {
-  std::vector<std::uint32_t> pool;
-  for (std::uint32_t node = 1; node < candidates.nodes.size(); ++node) {
-    if (is_in_place(candidates, wish, node)) pool.push_back(node);
-  }
+  std::vector<std::uint32_t> pool(candidates.nodes.size() - 1);
+  std::iota(pool.begin(), pool.end(), 1u);
   const auto wanted = static_cast<std::size_t>(wish.b);
-  if (pool.size() < wanted && wish.must_be_all) {
+  Rng rng = Rng::stream(wish.seed, Stream::endpoint, 0);
+  std::vector<std::uint32_t> chosen = drawn(
+      std::move(pool), wanted, rng, [&](std::uint32_t node) { return is_in_place(candidates, wish, node); });
+  if (chosen.size() < wanted && wish.must_be_all) {
     throw RunError(
         fmt::format("b: {} endpoints wanted, {} nodes {} (more nodes, fewer endpoints or a larger place)",
-                    wanted, pool.size(), place_name(wish)));
+                    wanted, chosen.size(), place_name(wish)));
   }
-  Rng rng = Rng::stream(wish.seed, Stream::endpoint, 0);
-  return drawn(std::move(pool), wanted, rng);
+  return chosen;
 }
 
 std::vector<std::uint32_t> endpoints_by_subvolume(const Candidates& candidates, const EndpointWish& wish) {
   const std::uint32_t count = *std::max_element(candidates.subvolumes.begin(), candidates.subvolumes.end());
   std::vector<std::vector<std::uint32_t>> pools(count);
   for (std::uint32_t node = 1; node < candidates.nodes.size(); ++node) {
-    const std::uint32_t subvolume = candidates.subvolumes[node];
-    if (subvolume > 0 && is_in_place(candidates, wish, node)) pools[subvolume - 1].push_back(node);
+    if (candidates.subvolumes[node] > 0) pools[candidates.subvolumes[node] - 1].push_back(node);
   }
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::size_t wanted =
         static_cast<std::size_t>(wish.b) / count + (i < static_cast<std::size_t>(wish.b) % count ? 1 : 0);
-    if (pools[i].size() < wanted && wish.must_be_all) {
+    Rng rng = Rng::stream(wish.seed, Stream::endpoint, 0, i + 1);
+    const std::vector<std::uint32_t> some = drawn(std::move(pools[i]), wanted, rng, [&](std::uint32_t node) {
+      return is_in_place(candidates, wish, node);
+    });
+    if (some.size() < wanted && wish.must_be_all) {
       throw RunError(
           fmt::format("b: {} endpoints wanted in sphere {}, {} nodes there (more nodes, fewer endpoints or "
                       "larger spheres)",
-                      wanted, i + 1, pools[i].size()));
+                      wanted, i + 1, some.size()));
     }
-    Rng rng = Rng::stream(wish.seed, Stream::endpoint, 0, i + 1);
-    const std::vector<std::uint32_t> some = drawn(std::move(pools[i]), wanted, rng);
     chosen.insert(chosen.end(), some.begin(), some.end());
   }
   return chosen;
@@ -130,7 +137,7 @@ std::vector<std::uint32_t> choose_nearby_endpoints(const Graph& graph, const Pat
                     number, wanted, pool.size(), stage.hops));
   }
   Rng rng = Rng::stream(seed, Stream::endpoint, number);
-  return drawn(std::move(pool), wanted, rng);
+  return drawn(std::move(pool), wanted, rng, [](std::uint32_t) { return true; });
 }
 
 }  // namespace ramify::pathplan

@@ -11,60 +11,57 @@
 namespace ramify::pathplan {
 namespace {
 
-// Costs vary from epsilon to 2 + epsilon in lengths; most edges that matter are in the lower part.
-constexpr double kTypicalCost = 0.5;
+// Of the bounds on what edges cost, for rounding.
+constexpr double kCostSlack = 1e-6;
 
 }  // namespace
 
-GuidedSearch::GuidedSearch(const Graph& graph, const Level& level, double spacing, const Vec3& axis,
-                           std::uint64_t seed)
+GuidedSearch::GuidedSearch(const Graph& graph, const Level& level, const GuidedGraph& about)
     : graph_(graph),
       guiding_(level.guiding),
+      about_(about),
       is_periodic_(level.weights == WeightKind::periodic),
-      spacing_(spacing),
-      axis_(axis),
-      seed_(seed),
-      edge_length_(mean_edge_length(graph)),
-      heaviest_(0.0),
-      farthest_(0.0),
       guides_(graph.nodes.size()) {
-  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
-    const auto [a, b] = graph.edges[i];
-    const double length = glm::distance(graph.nodes[a], graph.nodes[b]);
-    heaviest_ = std::max(heaviest_, graph.weights[i] * length * (2.0 + guiding_.epsilon));
+  if (!graph.weights.empty()) {
+    // Nodes are a spacing apart at least.
+    const auto [least, most] = std::minmax_element(graph.weights.begin(), graph.weights.end());
+    cheapest_ = *least * about.spacing * guiding_.epsilon * (1.0 - kCostSlack);
+    heaviest_ = *most * about.spacing * level.max_edge * (2.0 + guiding_.epsilon) * (1.0 + kCostSlack);
   }
   for (const Vec3& node : graph.nodes) farthest_ = std::max(farthest_, glm::distance(node, graph.nodes[0]));
-  guides_[0].vector = axis;
-}
-
-double GuidedSearch::cost(std::uint32_t from, std::uint32_t to, double factor) const {
-  const Vec3 way = graph_.nodes[to] - graph_.nodes[from];
-  return factor *
-         (std::sqrt(glm::dot(way, way)) * (1.0 + guiding_.epsilon) - glm::dot(guides_[from].vector, way));
+  guides_[0].vector = about.axis;
 }
 
 ShortestPaths GuidedSearch::paths_from(std::span<const std::uint32_t> sources, std::stop_token stop) {
-  ShortestPaths paths = unsearched_paths(graph_.nodes.size(), sources);
-  std::vector<bool> is_settled(graph_.nodes.size(), false);
-  std::vector<bool> is_source(graph_.nodes.size(), false);
-  BucketQueue<QueueOrder::exact> queue(kTypicalCost * edge_length_, heaviest_);
-  for (const std::uint32_t source : sources) {
-    is_source[source] = true;
-    queue.push(0.0, source);
+  if (graph_.weights.empty()) return unsearched_paths(graph_.nodes.size(), sources);
+  // In buckets narrower than the cheapest edge no node can better another: their order does not matter.
+  if (heaviest_ / cheapest_ <= kBucketsMax) {
+    return search(BucketQueue<QueueOrder::rough>(cheapest_, heaviest_), sources, stop);
   }
+  return search(BucketQueue<QueueOrder::exact>(heaviest_ / kBucketsMax, heaviest_), sources, stop);
+}
 
+template <class Queue>
+ShortestPaths GuidedSearch::search(Queue queue, std::span<const std::uint32_t> sources,
+                                   const std::stop_token& stop) {
+  ShortestPaths paths = unsearched_paths(graph_.nodes.size(), sources);
+  for (const std::uint32_t source : sources) queue.push(0.0, source);
   while (!queue.is_empty() && !stop.stop_requested()) {
     const auto [cost_here, node] = queue.pop();
-    if (is_settled[node]) continue;
-    is_settled[node] = true;
-    if (!is_source[node]) guides_[node] = guide_after(paths.parent[node], node);
+    if (cost_here > paths.cost[node]) continue;  // a better way was found since
+    if (paths.parent[node] != kNoParent) guides_[node] = guide_after(paths.parent[node], node);
     for (const Link& link : graph_.links_of(node)) {
-      if (is_settled[link.node]) continue;
-      const double there = cost_here + cost(node, link.node, link.weight);
-      if (there >= paths.cost[link.node]) continue;
-      paths.cost[link.node] = there;
-      paths.parent[link.node] = node;
-      queue.push(there, link.node);
+      double& cost_there = paths.cost[link.node];
+      if (cost_there <= cost_here) continue;  // settled
+      const double offer = cost_here + cost(node, link.node, link.weight);
+      std::uint32_t& parent = paths.parent[link.node];
+      if (offer < cost_there) {
+        cost_there = offer;
+        parent = node;
+        queue.push(offer, link.node);
+      } else if (offer == cost_there && std::pair(cost_here, node) < std::pair(paths.cost[parent], parent)) {
+        parent = node;
+      }
     }
   }
   return paths;
@@ -76,37 +73,39 @@ Guide GuidedSearch::guide_after(std::uint32_t parent, std::uint32_t node) const 
                       : turned_outwards(guides_[parent], node, way);
 }
 
-/// How far a node is from the root, 0 to 1 at the farthest.
-double GuidedSearch::share_of_way(std::uint32_t node) const {
-  return farthest_ > 0.0 ? glm::distance(graph_.nodes[node], graph_.nodes[0]) / farthest_ : 0.0;
+/// Of a schedule over the distance from the root, 0 there to 1 at the farthest node.
+double GuidedSearch::value_at(const Schedule& schedule, std::uint32_t node) const {
+  if (schedule.is_constant() || farthest_ == 0.0) return schedule.at(0.0);
+  return schedule.at(glm::distance(graph_.nodes[node], graph_.nodes[0]) / farthest_);
 }
 
 /// Away from the trunk, in the plane of trunk and node: outwards at first, then on downwards.
 Guide GuidedSearch::turned_outwards(const Guide& before, std::uint32_t node, double way) const {
   const Vec3 from_root = graph_.nodes[node] - graph_.nodes[0];
-  const Vec3 aside = from_root - axis_ * glm::dot(from_root, axis_);
+  const Vec3 aside = from_root - about_.axis * glm::dot(from_root, about_.axis);
   const double from_trunk = glm::length(aside);
-  if (from_trunk < spacing_) return before;  // which way is out is not clear yet
+  if (from_trunk < about_.spacing) return before;  // which way is out is not clear yet
   const double most = radians(guiding_.max_turn_deg);
-  const double step = radians(guiding_.alpha_deg.at(share_of_way(node))) * way / spacing_;
+  const double step = radians(value_at(guiding_.alpha_deg, node)) * way / about_.spacing;
   const double turned = std::clamp(before.turned + step, -most, most);
-  const Vec3 hinge = glm::cross(axis_, aside / from_trunk);
+  const Vec3 hinge = glm::cross(about_.axis, aside / from_trunk);
   return {.vector = glm::normalize(rotated(before.vector, hinge, turned - before.turned)), .turned = turned};
 }
 
 /// About a random axis across the vector, each time that the way since the last turn has got long enough.
 Guide GuidedSearch::turned_by_periods(const Guide& before, std::uint32_t node, double way) const {
   const double walked = before.walked + way;
-  const double distance = share_of_way(node);
-  if (walked < guiding_.d.at(distance) * edge_length_) return {.vector = before.vector, .walked = walked};
-  Rng rng = Rng::stream(seed_, Stream::turn, node);
+  if (walked < value_at(guiding_.d, node) * about_.edge_length) {
+    return {.vector = before.vector, .walked = walked};
+  }
+  Rng rng = Rng::stream(about_.seed, Stream::turn, node);
   const Vec3 hinge = perpendicular_at(before.vector, rng.uniform(0.0, 2.0 * std::numbers::pi));
-  return {.vector = glm::normalize(rotated(before.vector, hinge, periodic_angle(distance, rng)))};
+  return {.vector = glm::normalize(rotated(before.vector, hinge, periodic_angle(node, rng)))};
 }
 
 /// Radians; drawn where there are chances.
-double GuidedSearch::periodic_angle(double distance, Rng& rng) const {
-  if (guiding_.chances.empty()) return radians(guiding_.alpha_deg.at(distance));
+double GuidedSearch::periodic_angle(std::uint32_t node, Rng& rng) const {
+  if (guiding_.chances.empty()) return radians(value_at(guiding_.alpha_deg, node));
   double sum = 0.0;
   for (const TurnChance& chance : guiding_.chances) sum += chance.probability;
   double drawn = rng.uniform(0.0, sum);

@@ -24,40 +24,51 @@ struct Guide {
   double walked = 0;  // periodic: metres since the last turn
 };
 
+/// What guiding vectors go by beside the level's own values.
+struct GuidedGraph {
+  double spacing;      // of the nodes, metres
+  double edge_length;  // mean, metres
+  Vec3 axis;           // unit: the root, node 0, is guided along it, the middle of the trunk
+  std::uint64_t seed;
+};
+
 /// The guiding vectors of one graph, kept from one search to the next.
 class GuidedSearch {
  public:
-  /// The root, node 0, is guided along `axis` (unit), the middle of the trunk. The graph's weights are cost
-  /// factors: an edge of length l from u along e costs factor * l * (1 - g_u . e + epsilon).
-  /// `graph` is looked at later: it must outlive the search. O(edges).
-  GuidedSearch(const Graph& graph, const Level& level, double spacing, const Vec3& axis, std::uint64_t seed);
+  /// The graph's weights are cost factors: an edge of length l from u along e costs
+  /// factor * l * (1 - g_u . e + epsilon). `graph` is looked at later: it must outlive the search. O(edges).
+  GuidedSearch(const Graph& graph, const Level& level, const GuidedGraph& about);
 
   /// Least-cost paths from the sources, which must have been reached before (or be the root) and keep their
-  /// vectors; all others get new ones. Nodes are settled by rising cost, equal ones by the lower number.
-  /// O(edges * log(nodes in a bucket)).
+  /// vectors; all others get new ones. Paths are those of a search that settles nodes by rising cost, equal
+  /// ones by the lower number. About O(edges).
   ShortestPaths paths_from(std::span<const std::uint32_t> sources, std::stop_token stop = {});
 
   const std::vector<Guide>& guides() const { return guides_; }
 
   /// What the edge from one node to another costs by the vectors as they are.
-  double cost(std::uint32_t from, std::uint32_t to, double factor) const;
+  double cost(std::uint32_t from, std::uint32_t to, double factor) const {
+    const Vec3 way = graph_.nodes[to] - graph_.nodes[from];
+    return factor *
+           (std::sqrt(glm::dot(way, way)) * (1.0 + guiding_.epsilon) - glm::dot(guides_[from].vector, way));
+  }
 
  private:
+  template <class Queue>
+  ShortestPaths search(Queue queue, std::span<const std::uint32_t> sources, const std::stop_token& stop);
   Guide guide_after(std::uint32_t parent, std::uint32_t node) const;
   Guide turned_outwards(const Guide& before, std::uint32_t node, double way) const;
   Guide turned_by_periods(const Guide& before, std::uint32_t node, double way) const;
-  double periodic_angle(double distance, Rng& rng) const;
-  double share_of_way(std::uint32_t node) const;
+  double periodic_angle(std::uint32_t node, Rng& rng) const;
+  double value_at(const Schedule& schedule, std::uint32_t node) const;
 
   const Graph& graph_;
   const Guiding& guiding_;
+  GuidedGraph about_;
   bool is_periodic_;
-  double spacing_;  // metres
-  Vec3 axis_;
-  std::uint64_t seed_;
-  double edge_length_;  // mean, metres
-  double heaviest_;     // the greatest cost of an edge
-  double farthest_;     // distance of a node from the root, metres
+  double cheapest_ = 0.0;  // no edge costs less
+  double heaviest_ = 0.0;  // or more
+  double farthest_ = 0.0;  // distance of a node from the root, metres
   std::vector<Guide> guides_;
 };
 

@@ -65,7 +65,8 @@ class LevelPlanner {
     std::optional<Solid> region;
     if (has_region) region.emplace(endpoint_region(row));
 
-    BranchingHooks hooks{.stop = context_.stop, .graph = &tree_.first};
+    BranchingHooks hooks{
+        .stop = context_.stop, .graph = &tree_.first, .wants_guided_costs = context_.wants("graph")};
     hooks.on_nodes = [&](double done, double total) { context_.report({"nodes", done, total, "node"}); };
     hooks.on_stage = [&](std::string_view finished) {
       watch_.lap(finished);

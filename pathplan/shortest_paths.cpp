@@ -8,6 +8,12 @@
 #include "pathplan/bucket_queue.h"
 
 namespace ramify::pathplan {
+namespace {
+
+// In mean weights. Narrower buckets are mostly empty; in wider ones more nodes are looked at again.
+constexpr double kBucketWidth = 0.12;
+
+}  // namespace
 
 ShortestPaths unsearched_paths(std::size_t nodes, std::span<const std::uint32_t> sources) {
   ShortestPaths paths{.cost = std::vector<double>(nodes, kUnreached),
@@ -20,9 +26,10 @@ ShortestPaths shortest_paths(const Graph& graph, std::span<const std::uint32_t> 
                              std::stop_token stop) {
   ShortestPaths paths = unsearched_paths(graph.nodes.size(), sources);
   if (graph.weights.empty()) return paths;
-  const double sum = std::accumulate(graph.weights.begin(), graph.weights.end(), 0.0);
-  const float heaviest = *std::max_element(graph.weights.begin(), graph.weights.end());
-  BucketQueue<QueueOrder::rough> queue(sum / static_cast<double>(graph.weights.size()), heaviest);
+  const double mean = std::accumulate(graph.weights.begin(), graph.weights.end(), 0.0) /
+                      static_cast<double>(graph.weights.size());
+  const double heaviest = *std::max_element(graph.weights.begin(), graph.weights.end());
+  BucketQueue<QueueOrder::rough> queue(std::max(kBucketWidth * mean, heaviest / kBucketsMax), heaviest);
   for (const std::uint32_t source : sources) queue.push(0.0, source);
 
   while (!queue.is_empty() && !stop.stop_requested()) {
