@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/commands.h"
 #include "common/base/errors.h"
@@ -34,9 +35,10 @@ struct Parameter {
   std::string default_value;
 };
 
-/// Collects the parameters of a table whose owner holds the defaults; a table inside itself is not entered.
+/// Collects the parameters of a table whose owner holds the defaults. A table inside itself is not entered,
+/// nor are the items of a list that are like those of a list before (`listed`).
 void collect(const Table& table, void* owner, const std::string& prefix, std::vector<const Table*> around,
-             std::vector<Parameter>& found) {
+             std::set<const Table*>& listed, std::vector<Parameter>& found) {
   around.push_back(&table);
   for (const FieldRow& row : table) {
     const std::string key = prefix + row.key;
@@ -48,15 +50,16 @@ void collect(const Table& table, void* owner, const std::string& prefix, std::ve
       continue;
     }
     const bool is_inside_itself = std::find(around.begin(), around.end(), &row.child()) != around.end();
-    if (is_inside_itself) {
+    const bool is_known = row.kind == FieldKind::list && !listed.insert(&row.child()).second;
+    if (is_inside_itself || is_known) {
       found.push_back({key, &row, "[]"});
     } else if (row.kind == FieldKind::group) {
-      collect(row.child(), member, key + ".", around, found);
+      collect(row.child(), member, key + ".", around, listed, found);
     } else if (row.kind == FieldKind::list) {
       row.clear(member);
-      collect(row.child(), row.append(member), key + ".N.", around, found);
+      collect(row.child(), row.append(member), key + ".N.", around, listed, found);
     } else {
-      collect(row.child(), row.named(member, "NAME"), key + ".NAME.", around, found);
+      collect(row.child(), row.named(member, "NAME"), key + ".NAME.", around, listed, found);
     }
   }
 }
@@ -65,7 +68,8 @@ void print_parameters(const AnyEngine& engine, bool is_json) {
   Job job = default_job(engine);
   const Table table = job_table(engine);
   std::vector<Parameter> parameters;
-  collect(table, &job, "", {}, parameters);
+  std::set<const Table*> listed;
+  collect(table, &job, "", {}, listed, parameters);
   if (!is_json) fmt::print("{}\n", engine.name);
   for (const auto& [key, row, default_value] : parameters) {
     const FieldInfo& info = row->info;

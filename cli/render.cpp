@@ -24,6 +24,7 @@ struct RenderFlags {
   std::string color_by;
   std::string background;
   int at_step = -1;
+  int columns = 0;  // 0: all in one row
   bool with_scale = false;
   InputFlags reading;
 };
@@ -78,7 +79,8 @@ void render(RenderFlags flags, const Session& session) {
         {.mesh = &tree.mesh, .skeleton = tree.skeleton ? &*tree.skeleton : nullptr}, options));
     if (session.stop.stop_requested()) throw Interrupted();
   }
-  const Image picture = beside(images);
+  const std::size_t columns = flags.columns > 0 ? static_cast<std::size_t>(flags.columns) : images.size();
+  const Image picture = contact_sheet(images, columns);
   OutputFiles files;
   write_png(picture, files.add(flags.output));
   files.commit();
@@ -123,6 +125,9 @@ void add_render(CLI::App& program, const Session& session) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--background", flags->background, "#rrggbb, a colour's name or transparent")
       ->type_name("COLOR");
+  command->add_option("--columns", flags->columns, "Begin a new row after so many inputs")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--scale", flags->with_scale, "Show a scale bar and a person 1.75 m tall");
   flags->reading.configuring.add_to(*command);
   flags->reading.running.add_to(*command);

@@ -374,7 +374,9 @@ const Table& Parameters::fields() {
       {"costs", &Parameters::costs, {.help = "where branches would rather be, or not", .source = "XM12 5"}},
       {"roots",
        &Parameters::roots,
-       {.help = "levels of the roots, in a volume of their own that holds the tree's root; none: no roots",
+       {.help =
+            "levels of the roots (keys as in levels), in a volume of their own that holds the tree's root; "
+            "none: no roots",
         .source = "XM12 Fig. 24",
         .inherits = true}},
       {"unreachable",

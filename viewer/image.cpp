@@ -24,21 +24,25 @@ void write_png(const Image& image, std::ostream& out) {
   if (!out) throw IoError("cannot write the picture: write failed");
 }
 
-Image beside(std::span<const Image> images) {
-  Image row;
-  if (images.empty()) return row;
-  row.height = images.front().height;
-  for (const Image& image : images) {
-    assert(image.height == row.height);
-    row.width += image.width;
-  }
-  row.rgba.reserve(4 * static_cast<std::size_t>(row.width) * row.height);
-  for (int y = 0; y < row.height; ++y) {
-    for (const Image& image : images) {
-      row.rgba.insert(row.rgba.end(), image.pixel(0, y), image.pixel(0, y) + 4 * image.width);
+Image contact_sheet(std::span<const Image> images, std::size_t columns) {
+  assert(columns > 0);
+  if (images.empty()) return {};
+  const Image& first = images.front();
+  columns = std::min(columns, images.size());
+  const std::size_t rows = (images.size() + columns - 1) / columns;
+  Image sheet{first.width * static_cast<int>(columns), first.height * static_cast<int>(rows), {}};
+  sheet.rgba.assign(4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 0);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const Image& image = images[i];
+    assert(image.width == first.width && image.height == first.height);
+    const int left = first.width * static_cast<int>(i % columns);
+    const int top = first.height * static_cast<int>(i / columns);
+    for (int y = 0; y < image.height; ++y) {
+      const std::ptrdiff_t start = sheet.pixel(left, top + y) - sheet.rgba.data();
+      std::copy_n(image.pixel(0, y), 4 * image.width, sheet.rgba.begin() + start);
     }
   }
-  return row;
+  return sheet;
 }
 
 }  // namespace ramify

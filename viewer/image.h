@@ -23,7 +23,8 @@ struct Image {
 /// Writes a PNG file. Throws IoError if the stream fails.
 void write_png(const Image& image, std::ostream& out);
 
-/// The images side by side, left to right; they must be of one height. Empty for none.
-Image beside(std::span<const Image> images);
+/// The images in rows of `columns` (at least 1), left to right; they must be of one size. What the last row
+/// lacks is transparent. Empty for none.
+Image contact_sheet(std::span<const Image> images, std::size_t columns);
 
 }  // namespace ramify

@@ -42,6 +42,16 @@ TEST_CASE("render: several inputs stand side by side") {
   CHECK(png_size(folder.file("p.png")) == std::pair(128u, 64u));
 }
 
+TEST_CASE("render: --columns begins a new row") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  REQUIRE(run_program("render s4-fig3 s4-fig4 s4-fig5 -o p.png --size 64x32 --columns 2", where).code == 0);
+  CHECK(png_size(folder.file("p.png")) == std::pair(128u, 64u));
+  const Outcome none = run_program("render s4-fig3 -o p.png --columns 0", where);
+  CHECK(none.code == 2);
+  CHECK(none.err.find("--columns") != std::string::npos);
+}
+
 TEST_CASE("render: a table shows the same picture as the preset that made it") {
   const Folder folder;
   const std::string where = folder.path().string();

@@ -38,18 +38,28 @@ TEST_CASE("picture: a stream that fails is an error") {
   CHECK_THROWS_AS(write_png(counting_image(3, 2, 0), out), IoError);
 }
 
-TEST_CASE("picture: images stand beside each other from left to right") {
-  const std::array<Image, 3> images = {counting_image(2, 2, 0), counting_image(1, 2, 100),
-                                       counting_image(3, 2, 200)};
-  const Image row = beside(images);
-  CHECK(row.width == 6);
-  CHECK(row.height == 2);
-  REQUIRE(row.rgba.size() == 4u * 6u * 2u);
+TEST_CASE("picture: images stand in rows from left to right, and what the last row lacks is transparent") {
+  const std::array<Image, 3> images = {counting_image(2, 2, 0), counting_image(2, 2, 100),
+                                       counting_image(2, 2, 200)};
+  const Image sheet = contact_sheet(images, 2);
+  CHECK(sheet.width == 4);
+  CHECK(sheet.height == 4);
+  REQUIRE(sheet.rgba.size() == 4u * 4u * 4u);
   for (int y = 0; y < 2; ++y) {
-    CHECK(row.pixel(0, y)[0] == images[0].pixel(0, y)[0]);
-    CHECK(row.pixel(1, y)[3] == images[0].pixel(1, y)[3]);
-    CHECK(row.pixel(2, y)[1] == images[1].pixel(0, y)[1]);
-    CHECK(row.pixel(5, y)[2] == images[2].pixel(2, y)[2]);
+    CHECK(sheet.pixel(0, y)[0] == images[0].pixel(0, y)[0]);
+    CHECK(sheet.pixel(1, y)[3] == images[0].pixel(1, y)[3]);
+    CHECK(sheet.pixel(2, y)[1] == images[1].pixel(0, y)[1]);
+    CHECK(sheet.pixel(1, 2 + y)[2] == images[2].pixel(1, y)[2]);
+    CHECK(sheet.pixel(2, 2 + y)[3] == 0);
+    CHECK(sheet.pixel(3, 2 + y)[0] == 0);
   }
-  CHECK(beside({}).rgba.empty());
+  CHECK(contact_sheet({}, 1).rgba.empty());
+}
+
+TEST_CASE("picture: more columns than images make one row") {
+  const std::array<Image, 2> images = {counting_image(2, 1, 0), counting_image(2, 1, 100)};
+  const Image row = contact_sheet(images, 7);
+  CHECK(row.width == 4);
+  CHECK(row.height == 1);
+  CHECK(row.pixel(3, 0)[2] == images[1].pixel(1, 0)[2]);
 }
