@@ -1,7 +1,7 @@
 #include "pathplan/branching.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include "pathplan/edge_rules.h"
 #include "pathplan/endpoints.h"
@@ -15,10 +15,13 @@
 namespace ramify::pathplan {
 namespace {
 
-std::vector<Vec3> seeds_of(const Level& level, const Vec3& root) {
+/// The root and the manual endpoints that can be nodes. For those outside the volume the nearest node stands.
+std::vector<Vec3> seeds_of(const Level& level, const Vec3& root, const Solid& solid) {
   std::vector<Vec3> seeds = {root};
   if (level.endpoints != EndpointKind::manual) return seeds;
-  for (const ManualPoint& point : level.points) seeds.push_back(point.position);
+  for (const ManualPoint& point : level.points) {
+    if (solid.contains(point.position)) seeds.push_back(point.position);
+  }
   return seeds;
 }
 
@@ -38,8 +41,9 @@ class Planner {
     if (!finish("nodes")) return {};
     make_edges();
     if (!finish("graph")) return {};
-    Branching branching = make_paths();
+    make_paths();
     if (!finish("paths")) return {};
+    Branching branching = union_of_paths();
     if (hooks_.graph) hand_over_graph();
     return branching;
   }
@@ -52,11 +56,9 @@ class Planner {
   }
 
   void make_nodes() {
-    // Manual endpoints outside the volume are no nodes: the nearest one stands for each.
-    std::vector<Vec3> seeds = {pattern_.seeds.front()};
-    for (std::size_t i = 1; i < pattern_.seeds.size(); ++i) {
-      if (domain_.contains(pattern_.seeds[i])) seeds.push_back(pattern_.seeds[i]);
-    }
+    std::vector<Vec3> seeds = pattern_.seeds;
+    const auto is_obstructed = [&](const Vec3& seed) { return !domain_.contains(seed); };
+    seeds.erase(std::remove_if(seeds.begin() + 1, seeds.end(), is_obstructed), seeds.end());
     Nodes nodes = pattern_.row.layout == Layout::lattice
                       ? lattice_nodes(domain_, seeds.front(), scatter_of(pattern_.row), pattern_.cubic_metres)
                       : pattern_.poisson_disc.scatter(domain_, seeds, site_.must_be_complete, site_.seed,
@@ -85,51 +87,59 @@ class Planner {
     link_nodes(graph_);
   }
 
-  Branching make_paths() {
+  void make_paths() {
     if (pattern_.row.weights != WeightKind::random) {
       edge_length_ = mean_edge_length(graph_);
-      search_.emplace(
+      guided_.emplace(
           graph_, pattern_.row,
           GuidedGraph{
               .spacing = spacing_, .edge_length = edge_length_, .axis = site_.axis, .seed = site_.seed});
     }
-    PathUnion paths(graph_.nodes.size());
-    ShortestPaths found = search_from(paths.nodes());
-    if (hooks_.stop.stop_requested()) return {};
-    is_connected_ =
-        std::none_of(found.cost.begin(), found.cost.end(), [](double c) { return c == kUnreached; });
-    Branching branching;
-    std::vector<std::uint32_t> endpoints = first_endpoints(found);
-    branching.counts.endpoints += endpoints.size();
-    std::erase_if(endpoints, [&](std::uint32_t node) { return !found.is_reached(node); });
-    branching.counts.unreachable = branching.counts.endpoints - endpoints.size();
-    paths.add(found, endpoints);
-    std::vector<std::uint32_t> tips = endpoints;
-
-    const std::vector<Stage>& stages = pattern_.row.stages;
-    for (std::size_t i = 0; i < stages.size() && !hooks_.stop.stop_requested(); ++i) {
-      endpoints =
-          choose_nearby_endpoints(graph_, paths, stages[i], i + 1, site_.must_be_complete, site_.seed);
-      found = search_from(paths.nodes());
-      if (hooks_.stop.stop_requested()) return {};
-      paths.add(found, endpoints);
-      branching.counts.endpoints += endpoints.size();
-      tips.insert(tips.end(), endpoints.begin(), endpoints.end());
+    paths_.emplace(graph_.nodes.size());
+    plan_first_paths();
+    for (std::size_t i = 0; i < pattern_.row.stages.size() && !hooks_.stop.stop_requested(); ++i) {
+      const std::vector<std::uint32_t> endpoints = choose_nearby_endpoints(
+          graph_, *paths_, pattern_.row.stages[i], i + 1, site_.must_be_complete, site_.seed);
+      add_paths(search(), endpoints);
     }
-    branching.counts.graphs = 1;
-    branching.counts.nodes = graph_.nodes.size();
-    branching.counts.edges = graph_.edges.size();
-
-    for (const std::uint32_t node : paths.nodes()) {
-      branching.position.push_back(domain_.frame.to_world(graph_.nodes[node]));
-    }
-    branching.parent = paths.parents();
-    for (const std::uint32_t node : tips) branching.tips.push_back(paths.place(node));
-    return branching;
   }
 
-  ShortestPaths search_from(const std::vector<std::uint32_t>& sources) {
-    return search_ ? search_->paths_from(sources, hooks_.stop) : shortest_paths(graph_, sources, hooks_.stop);
+  void plan_first_paths() {
+    const ShortestPaths found = search();
+    if (hooks_.stop.stop_requested()) return;
+    is_connected_ =
+        std::none_of(found.cost.begin(), found.cost.end(), [](double c) { return c == kUnreached; });
+    std::vector<std::uint32_t> endpoints = first_endpoints(found);
+    unreachable_ = std::erase_if(endpoints, [&](std::uint32_t node) { return !found.is_reached(node); });
+    add_paths(found, endpoints);
+  }
+
+  /// From the paths found so far; at first from the root alone.
+  ShortestPaths search() {
+    const std::vector<std::uint32_t>& sources = paths_->nodes();
+    return guided_ ? guided_->paths_from(sources, hooks_.stop) : shortest_paths(graph_, sources, hooks_.stop);
+  }
+
+  void add_paths(const ShortestPaths& found, const std::vector<std::uint32_t>& endpoints) {
+    if (hooks_.stop.stop_requested()) return;  // what was found may be unfinished
+    paths_->add(found, endpoints);
+    tips_.insert(tips_.end(), endpoints.begin(), endpoints.end());
+  }
+
+  Branching union_of_paths() const {
+    Branching branching{.position = {},
+                        .parent = paths_->parents(),
+                        .tips = {},
+                        .counts = {.graphs = 1,
+                                   .nodes = graph_.nodes.size(),
+                                   .edges = graph_.edges.size(),
+                                   .endpoints = tips_.size() + unreachable_,
+                                   .unreachable = unreachable_}};
+    for (const std::uint32_t node : paths_->nodes()) {
+      branching.position.push_back(domain_.frame.to_world(graph_.nodes[node]));
+    }
+    for (const std::uint32_t node : tips_) branching.tips.push_back(paths_->place(node));
+    return branching;
   }
 
   std::vector<std::uint32_t> first_endpoints(const ShortestPaths& found) const {
@@ -155,16 +165,14 @@ class Planner {
 
   void hand_over_graph() {
     PlannedGraph& planned = *hooks_.graph;
-    planned.edge_length = search_ ? edge_length_ : mean_edge_length(graph_);
+    planned.edge_length = guided_ ? edge_length_ : mean_edge_length(graph_);
     planned.components = is_connected_ ? 1 : component_count(graph_);
-    if (search_) {
-      planned.guides = search_->guides();
-    }
-    if (search_ && hooks_.wants_guided_costs) {
+    if (guided_) planned.guides = guided_->guides();
+    if (guided_ && hooks_.wants_guided_costs) {
       for (std::size_t i = 0; i < graph_.edges.size(); ++i) {
         const auto [a, b] = graph_.edges[i];
         planned.guided_costs.push_back(
-            {search_->cost(a, b, graph_.weights[i]), search_->cost(b, a, graph_.weights[i])});
+            {guided_->cost(a, b, graph_.weights[i]), guided_->cost(b, a, graph_.weights[i])});
       }
     }
     planned.subvolumes = std::move(subvolumes_);
@@ -180,7 +188,10 @@ class Planner {
   double edge_length_ = 0.0;  // mean, metres; of guiding vectors
   bool is_connected_ = true;
   std::vector<std::uint32_t> subvolumes_;  // of each node, in a refined crown
-  std::optional<GuidedSearch> search_;     // of guiding vectors
+  std::optional<GuidedSearch> guided_;     // of guiding vectors
+  std::optional<PathUnion> paths_;
+  std::vector<std::uint32_t> tips_;  // endpoints in the union
+  std::size_t unreachable_ = 0;      // endpoints that are not
 };
 
 }  // namespace
@@ -189,7 +200,7 @@ Pattern::Pattern(const Level& level, const Volume& volume, const Vec3& root, dou
     : row(level),
       solid(volume),
       cubic_metres(volume_of(volume) - obstructed),
-      seeds(seeds_of(level, root)),
+      seeds(seeds_of(level, root, solid)),
       poisson_disc(solid, scatter_of(level), cubic_metres, seeds) {}
 
 void GraphCounts::add(const GraphCounts& other) {
