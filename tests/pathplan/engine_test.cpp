@@ -8,7 +8,7 @@
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
 #include "tests/catch.h"
-#include "tests/pathplan/volumes.h"
+#include "tests/pathplan/graphs.h"
 
 using namespace ramify;
 using namespace ramify::pathplan;
@@ -23,25 +23,6 @@ Parameters small_tree(std::uint64_t seed = 1) {
   parameters.levels.front().nodes = 3000;
   parameters.levels.front().b = 100;
   return parameters;
-}
-
-RunResult run_with_layers(const Parameters& parameters) {
-  RunContext context;
-  context.layers = {"graph", "endpoints"};
-  return Engine::run(parameters, context);
-}
-
-template <class T>
-const T& layer(const RunResult& result, std::string_view name) {
-  for (const Layer& candidate : result.layers) {
-    if (candidate.name == name) return std::get<T>(candidate.data);
-  }
-  throw std::out_of_range(std::string(name));
-}
-
-bool is_same(const Skeleton& a, const Skeleton& b) {
-  return a.position == b.position && a.parent == b.parent && a.diameter == b.diameter && a.axis == b.axis &&
-         a.order == b.order;
 }
 
 /// A run that asks itself to stop when it reaches a stage.
