@@ -1,8 +1,11 @@
 #include "pathplan/branching.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/errors.h"
 #include "pathplan/edge_rules.h"
 #include "pathplan/endpoints.h"
 #include "pathplan/lattice.h"
@@ -14,6 +17,17 @@
 
 namespace ramify::pathplan {
 namespace {
+
+// Volumes are counted to about 0.3 %: how much is left of one that is nearly full is not known.
+constexpr double kLeastFree = 0.01;
+
+/// Cubic metres that nodes may fill.
+double free_volume(const Volume& volume, double obstructed) {
+  const double all = volume_of(volume);
+  if (all - obstructed >= kLeastFree * all) return all - obstructed;
+  throw RunError(fmt::format("obstacles: less than {:g} % of the volume is free (smaller ones, or beside it)",
+                             100.0 * kLeastFree));
+}
 
 std::vector<Vec3> seeds_of(const Level& level, const Vec3& root) {
   std::vector<Vec3> seeds = {root};
@@ -181,7 +195,7 @@ class Planner {
 Pattern::Pattern(const Level& level, const Volume& volume, const Vec3& root, double obstructed)
     : row(level),
       solid(volume),
-      cubic_metres(volume_of(volume) - obstructed),
+      cubic_metres(free_volume(volume, obstructed)),
       seeds(seeds_of(level, root)),
       poisson_disc(solid, scatter_of(level), cubic_metres, seeds) {}
 

@@ -269,6 +269,18 @@ TEST_CASE(
   CHECK(closed.report.warnings.empty());
 }
 
+TEST_CASE("pathplan: an obstacle that fills the volume is an error, not a search without end") {
+  Parameters parameters = small_tree();
+  parameters.levels.front().volume = {.shape = Shape::sphere, .center = {0.0, 2.0, 0.0}, .radius = 2.0};
+  for (const double height : {3.8, 3.99, 3.9999, 4.5}) {
+    INFO("height " << height);
+    parameters.obstacles = {
+        {{.shape = Shape::box, .center = {0.0, 0.001 + 0.5 * height, 0.0}, .size = {4.5, height, 4.5}}}};
+    CHECK(error_of(parameters) ==
+          "obstacles: less than 1 % of the volume is free (smaller ones, or beside it)");
+  }
+}
+
 TEST_CASE("pathplan: roots are a tree below the ground, and the stem is as it would be without them") {
   for (const std::uint64_t seed : {1, 2}) {
     Parameters parameters = small_tree(seed);
