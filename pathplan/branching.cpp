@@ -1,8 +1,11 @@
 #include "pathplan/branching.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
+#include "common/base/errors.h"
 #include "pathplan/edge_rules.h"
 #include "pathplan/endpoints.h"
 #include "pathplan/lattice.h"
@@ -14,6 +17,17 @@
 
 namespace ramify::pathplan {
 namespace {
+
+// Volumes are counted to about 0.3 %: how much is left of one that is nearly full is not known.
+constexpr double kLeastFree = 0.01;
+
+/// Cubic metres that nodes may fill.
+double free_volume(const Volume& volume, double obstructed) {
+  const double all = volume_of(volume);
+  if (all - obstructed >= kLeastFree * all) return all - obstructed;
+  throw RunError(fmt::format("obstacles: less than {:g} % of the volume is free (smaller ones, or beside it)",
+                             100.0 * kLeastFree));
+}
 
 /// The root and the manual endpoints that can be nodes. For those outside the volume the nearest node stands.
 std::vector<Vec3> seeds_of(const Level& level, const Vec3& root, const Solid& solid) {
@@ -89,11 +103,7 @@ class Planner {
 
   void make_paths() {
     if (pattern_.row.weights != WeightKind::random) {
-      edge_length_ = mean_edge_length(graph_);
-      guided_.emplace(
-          graph_, pattern_.row,
-          GuidedGraph{
-              .spacing = spacing_, .edge_length = edge_length_, .axis = site_.axis, .seed = site_.seed});
+      guided_.emplace(graph_, pattern_.row, spacing_, site_.axis, site_.seed);
     }
     paths_.emplace(graph_.nodes.size());
     plan_first_paths();
@@ -165,7 +175,7 @@ class Planner {
 
   void hand_over_graph() {
     PlannedGraph& planned = *hooks_.graph;
-    planned.edge_length = guided_ ? edge_length_ : mean_edge_length(graph_);
+    planned.edge_length = guided_ ? guided_->edge_length() : mean_edge_length(graph_);
     planned.components = is_connected_ ? 1 : component_count(graph_);
     if (guided_) planned.guides = guided_->guides();
     if (guided_ && hooks_.wants_guided_costs) {
@@ -184,8 +194,7 @@ class Planner {
   const BranchingHooks& hooks_;
   Domain domain_;
   Graph graph_;
-  double spacing_ = 0.0;      // metres
-  double edge_length_ = 0.0;  // mean, metres; of guiding vectors
+  double spacing_ = 0.0;  // metres
   bool is_connected_ = true;
   std::vector<std::uint32_t> subvolumes_;  // of each node, in a refined crown
   std::optional<GuidedSearch> guided_;     // of guiding vectors
@@ -199,7 +208,7 @@ class Planner {
 Pattern::Pattern(const Level& level, const Volume& volume, const Vec3& root, double obstructed)
     : row(level),
       solid(volume),
-      cubic_metres(volume_of(volume) - obstructed),
+      cubic_metres(free_volume(volume, obstructed)),
       seeds(seeds_of(level, root, solid)),
       poisson_disc(solid, scatter_of(level), cubic_metres, seeds) {}
 

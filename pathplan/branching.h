@@ -24,7 +24,7 @@ namespace ramify::pathplan {
 /// What all graphs of one level that are alike share; each is placed by a Frame.
 struct Pattern {
   /// Of a level's row. `volume` and `root` are in the graph's own frame. `obstructed` is how much of the
-  /// volume obstacles take, cubic metres.
+  /// volume obstacles take, cubic metres. Throws RunError if that is nearly all of it.
   Pattern(const Level& level, const Volume& volume, const Vec3& root, double obstructed = 0.0);
 
   const Level& row;

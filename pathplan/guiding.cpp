@@ -16,20 +16,30 @@ constexpr double kCostSlack = 1e-6;
 
 }  // namespace
 
-GuidedSearch::GuidedSearch(const Graph& graph, const Level& level, const GuidedGraph& about)
+GuidedSearch::GuidedSearch(const Graph& graph, const Level& level, double spacing, const Vec3& axis,
+                           std::uint64_t seed)
     : graph_(graph),
       guiding_(level.guiding),
-      about_(about),
       is_periodic_(level.weights == WeightKind::periodic),
+      spacing_(spacing),
+      axis_(axis),
+      seed_(seed),
       guides_(graph.nodes.size()) {
-  if (!graph.weights.empty()) {
-    // Nodes are a spacing apart at least.
-    const auto [least, most] = std::minmax_element(graph.weights.begin(), graph.weights.end());
-    cheapest_ = *least * about.spacing * guiding_.epsilon * (1.0 - kCostSlack);
-    heaviest_ = *most * about.spacing * level.max_edge * (2.0 + guiding_.epsilon) * (1.0 + kCostSlack);
+  double sum = 0.0;
+  double least = kUnreached;
+  double most = 0.0;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const auto [a, b] = graph.edges[i];
+    const double length = glm::distance(graph.nodes[a], graph.nodes[b]);
+    sum += length;
+    least = std::min(least, graph.weights[i] * length);
+    most = std::max(most, graph.weights[i] * length);
   }
+  if (!graph.edges.empty()) edge_length_ = sum / static_cast<double>(graph.edges.size());
+  cheapest_ = least * guiding_.epsilon * (1.0 - kCostSlack);
+  heaviest_ = most * (2.0 + guiding_.epsilon) * (1.0 + kCostSlack);
   for (const Vec3& node : graph.nodes) farthest_ = std::max(farthest_, glm::distance(node, graph.nodes[0]));
-  guides_[0].vector = about.axis;
+  guides_[0].vector = axis;
 }
 
 ShortestPaths GuidedSearch::paths_from(std::span<const std::uint32_t> sources, std::stop_token stop) {
@@ -82,23 +92,23 @@ double GuidedSearch::value_at(const Schedule& schedule, std::uint32_t node) cons
 /// Away from the trunk, in the plane of trunk and node: outwards at first, then on downwards.
 Guide GuidedSearch::turned_outwards(const Guide& before, std::uint32_t node, double way) const {
   const Vec3 from_root = graph_.nodes[node] - graph_.nodes[0];
-  const Vec3 aside = from_root - about_.axis * glm::dot(from_root, about_.axis);
+  const Vec3 aside = from_root - axis_ * glm::dot(from_root, axis_);
   const double from_trunk = glm::length(aside);
-  if (from_trunk < about_.spacing) return before;  // which way is out is not clear yet
+  if (from_trunk < spacing_) return before;  // which way is out is not clear yet
   const double most = radians(guiding_.max_turn_deg);
-  const double step = radians(value_at(guiding_.alpha_deg, node)) * way / about_.spacing;
+  const double step = radians(value_at(guiding_.alpha_deg, node)) * way / spacing_;
   const double turned = std::clamp(before.turned + step, -most, most);
-  const Vec3 hinge = glm::cross(about_.axis, aside / from_trunk);
+  const Vec3 hinge = glm::cross(axis_, aside / from_trunk);
   return {.vector = glm::normalize(rotated(before.vector, hinge, turned - before.turned)), .turned = turned};
 }
 
 /// About a random axis across the vector, each time that the way since the last turn has got long enough.
 Guide GuidedSearch::turned_by_periods(const Guide& before, std::uint32_t node, double way) const {
   const double walked = before.walked + way;
-  if (walked < value_at(guiding_.d, node) * about_.edge_length) {
+  if (walked < value_at(guiding_.d, node) * edge_length_) {
     return {.vector = before.vector, .walked = walked};
   }
-  Rng rng = Rng::stream(about_.seed, Stream::turn, node);
+  Rng rng = Rng::stream(seed_, Stream::turn, node);
   const Vec3 hinge = perpendicular_at(before.vector, rng.uniform(0.0, 2.0 * std::numbers::pi));
   return {.vector = glm::normalize(rotated(before.vector, hinge, periodic_angle(node, rng)))};
 }

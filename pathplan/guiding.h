@@ -24,20 +24,13 @@ struct Guide {
   double walked = 0;  // periodic: metres since the last turn
 };
 
-/// What guiding vectors go by beside the level's own values.
-struct GuidedGraph {
-  double spacing;      // of the nodes, metres
-  double edge_length;  // mean, metres
-  Vec3 axis;           // unit: the root, node 0, is guided along it, the middle of the trunk
-  std::uint64_t seed;
-};
-
 /// The guiding vectors of one graph, kept from one search to the next.
 class GuidedSearch {
  public:
-  /// The graph's weights are cost factors: an edge of length l from u along e costs
+  /// The root, node 0, is guided along `axis` (unit), the middle of the trunk; `spacing` of the nodes in
+  /// metres. The graph's weights are cost factors: an edge of length l from u along e costs
   /// factor * l * (1 - g_u . e + epsilon). `graph` is looked at later: it must outlive the search. O(edges).
-  GuidedSearch(const Graph& graph, const Level& level, const GuidedGraph& about);
+  GuidedSearch(const Graph& graph, const Level& level, double spacing, const Vec3& axis, std::uint64_t seed);
 
   /// Least-cost paths from the sources, which must have been reached before (or be the root) and keep their
   /// vectors; all others get new ones. Paths are those of a search that settles nodes by rising cost, equal
@@ -45,6 +38,8 @@ class GuidedSearch {
   ShortestPaths paths_from(std::span<const std::uint32_t> sources, std::stop_token stop = {});
 
   const std::vector<Guide>& guides() const { return guides_; }
+  /// Mean, metres.
+  double edge_length() const { return edge_length_; }
 
   /// What the edge from one node to another costs by the vectors as they are.
   double cost(std::uint32_t from, std::uint32_t to, double factor) const {
@@ -64,8 +59,11 @@ class GuidedSearch {
 
   const Graph& graph_;
   const Guiding& guiding_;
-  GuidedGraph about_;
   bool is_periodic_;
+  double spacing_;  // metres
+  Vec3 axis_;
+  std::uint64_t seed_;
+  double edge_length_ = 0.0;
   double cheapest_ = 0.0;  // no edge costs less
   double heaviest_ = 0.0;  // or more
   double farthest_ = 0.0;  // distance of a node from the root, metres

@@ -8,13 +8,9 @@
 #include "common/base/errors.h"
 #include "pathplan/poisson_disc.h"
 #include "pathplan/subgraph_volume.h"
-#include "pathplan/surroundings.h"
 
 namespace ramify::pathplan {
 namespace {
-
-// What obstacles may take of the volume of level 1.
-constexpr double kObstructedMax = 0.99;
 
 void require_direction(const Vec3& direction, const std::string& key) {
   if (glm::length(direction) >= 1e-6) return;
@@ -167,10 +163,6 @@ void check_surroundings(const Parameters& parameters) {
     if (contains(parameters.obstacles[i].volume, parameters.root)) {
       throw ConfigError("", key, "the tree's root is inside (obstacles stand beside it)");
     }
-  }
-  const Volume& volume = parameters.levels.front().volume;
-  if (Surroundings(parameters).volume_taken_of(volume) > kObstructedMax * volume_of(volume)) {
-    throw ConfigError("", "obstacles", "they fill the volume of level 1 (leave a hundredth of it at least)");
   }
   for (std::size_t i = 0; i < parameters.costs.size(); ++i) {
     check_volume(parameters.costs[i].volume, fmt::format("costs.{}.volume", i + 1));

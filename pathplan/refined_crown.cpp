@@ -87,7 +87,7 @@ Volume RefinedCrown::cone_of(const Sphere& sphere) {
 
 std::uint32_t RefinedCrown::subvolume_of(const Vec3& point) const {
   const std::size_t first = has_trunk_ ? 1 : 0;
-  if (has_trunk_ && solids_.front().contains(point)) return 0;
+  if (has_trunk_ ? solids_.front().contains(point) : is_at_root(point)) return 0;
   std::uint32_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
@@ -98,6 +98,12 @@ std::uint32_t RefinedCrown::subvolume_of(const Vec3& point) const {
     nearest = static_cast<std::uint32_t>(i + 1);
   }
   return nearest;
+}
+
+/// Without a trunk: where all cones begin. Was this one sphere's, it would cut the others off.
+bool RefinedCrown::is_at_root(const Vec3& point) const {
+  const Sphere& any = spheres_.front();
+  return glm::distance(point, any.joint) <= any.joint_radius;
 }
 
 bool RefinedCrown::is_in_sphere(const Vec3& point, std::uint32_t subvolume) const {

@@ -13,8 +13,8 @@
 
 namespace ramify::pathplan {
 
-/// Number 0 is the trunk, as it is in the level's volume (its first part; a volume that is no union has
-/// none); the others are spheres with their cones.
+/// Number 0 is the trunk, as it is in the level's volume: its first part, or, in one that is no union, where
+/// all cones begin; the others are spheres with their cones.
 class RefinedCrown {
  public:
   /// Spheres of the given radius at Poisson-disc points of the crown, as far apart as fits. A cone starts on
@@ -27,9 +27,9 @@ class RefinedCrown {
   const Volume& volume() const { return volume_; }
   std::size_t sphere_count() const { return spheres_.size(); }
 
-  /// Which subvolume a point of the volume belongs to: the trunk if it is in that, else the one whose axis,
-  /// from the cone's near end to the sphere's middle, is nearest (of those that hold it; equal ones: the
-  /// lower number).
+  /// Which subvolume a point of the volume belongs to: the trunk if it is in that (without one: as near to
+  /// the root as the cones are wide there), else the one whose axis, from the cone's near end to the sphere's
+  /// middle, is nearest (of those that hold it; equal ones: the lower number).
   std::uint32_t subvolume_of(const Vec3& point) const;
 
   /// Where endpoints of a subvolume may be.
@@ -46,6 +46,7 @@ class RefinedCrown {
   static Volume cone_of(const Sphere& sphere);
   static Volume sphere_of(const Sphere& sphere);
   void join(const Level& level);
+  bool is_at_root(const Vec3& point) const;
 
   bool has_trunk_;
   std::vector<Sphere> spheres_;

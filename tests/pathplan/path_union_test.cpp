@@ -1,24 +1,18 @@
 #include "pathplan/path_union.h"
 
-#include "common/skeleton/skeleton.h"
-#include "pathplan/graph.h"
 #include "tests/catch.h"
+#include "tests/pathplan/graphs.h"
 
 using namespace ramify;
 using namespace ramify::pathplan;
+using namespace ramify::test;
 
 namespace {
 
-const std::vector<std::uint32_t> kRoot = {0};
-
 /// A trunk of two metres that forks into a branch of two metres and one of one; node 5 hangs on the longer.
 Graph forked_graph() {
-  Graph graph;
-  graph.nodes = {{0, 0, 0}, {1, 4, 0}, {0, 2, 0}, {-1, 2, 0}, {1, 2, 0}, {9, 9, 9}};
-  graph.edges = {{0, 2}, {2, 3}, {2, 4}, {1, 4}, {4, 5}};
-  graph.weights = {2.0f, 1.0f, 0.5f, 2.0f, 20.0f};
-  link_nodes(graph);
-  return graph;
+  return graph_of({{0, 0, 0}, {1, 4, 0}, {0, 2, 0}, {-1, 2, 0}, {1, 2, 0}, {9, 9, 9}},
+                  {{0, 2}, {2, 3}, {2, 4}, {1, 4}, {4, 5}}, {2.0f, 1.0f, 0.5f, 2.0f, 20.0f});
 }
 
 using Numbers = std::vector<std::uint32_t>;

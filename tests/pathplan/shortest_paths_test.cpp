@@ -2,32 +2,14 @@
 
 #include <queue>
 
-#include "common/skeleton/skeleton.h"
-#include "pathplan/poisson_disc.h"
-#include "pathplan/weights.h"
-#include "pathplan/yao_graph.h"
 #include "tests/catch.h"
-#include "tests/pathplan/volumes.h"
+#include "tests/pathplan/graphs.h"
 
 using namespace ramify;
 using namespace ramify::pathplan;
 using namespace ramify::test;
 
 namespace {
-
-const std::vector<std::uint32_t> kRoot = {0};
-
-Graph graph_in(const Place& place, int count, const RandomWeights& weights) {
-  const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = count}, weights.seed);
-  const OpenDomain open(place.volume);
-  const EdgeRules rules(open.domain, nodes.position, 3.0 * nodes.spacing);
-  Graph graph;
-  graph.nodes = nodes.position;
-  graph.edges = yao_edges(nodes.position, rules, 8, nodes.spacing);
-  assign_random_weights(graph, weights);
-  link_nodes(graph);
-  return graph;
-}
 
 /// Dijkstra with a binary heap, from the list of edges alone.
 std::vector<double> costs_by_heap(const Graph& graph) {
@@ -50,15 +32,6 @@ std::vector<double> costs_by_heap(const Graph& graph) {
     }
   }
   return cost;
-}
-
-Graph graph_of(std::vector<Vec3> nodes, std::vector<Edge> edges, std::vector<float> weights) {
-  Graph graph;
-  graph.nodes = std::move(nodes);
-  graph.edges = std::move(edges);
-  graph.weights = std::move(weights);
-  link_nodes(graph);
-  return graph;
 }
 
 }  // namespace

@@ -1,14 +1,10 @@
 #include "pathplan/yao_graph.h"
 
 #include <algorithm>
-#include <set>
 
 #include "common/base/parallel.h"
-#include "common/base/rng.h"
-#include "pathplan/poisson_disc.h"
-#include "pathplan/weights.h"
 #include "tests/catch.h"
-#include "tests/pathplan/volumes.h"
+#include "tests/pathplan/graphs.h"
 
 using namespace ramify;
 using namespace ramify::pathplan;
@@ -16,32 +12,30 @@ using namespace ramify::test;
 
 namespace {
 
+/// The direction that a difference is nearest to, by angle: of the faces of a cube, or of its faces and
+/// corners; with octants, the corner on its side.
 int sector_of(const Vec3& d, int sectors) {
   if (sectors == 8) return (d.x < 0 ? 1 : 0) + (d.y < 0 ? 2 : 0) + (d.z < 0 ? 4 : 0);
-  int axis = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (std::abs(d[i]) > std::abs(d[axis])) axis = i;
+  std::vector<Vec3> directions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (int corner = 0; corner < 8 && sectors == 14; ++corner) {
+    const Vec3 signs(corner & 1, corner >> 1 & 1, corner >> 2);
+    directions.push_back(glm::normalize(1.0 - 2.0 * signs));
   }
-  return 2 * axis + (d[axis] < 0 ? 1 : 0);
+  const auto is_less = [&](const Vec3& a, const Vec3& b) { return glm::dot(a, d) < glm::dot(b, d); };
+  return static_cast<int>(std::max_element(directions.begin(), directions.end(), is_less) -
+                          directions.begin());
 }
 
 /// The definition, every pair looked at.
-std::set<Edge> edges_by_hand(const std::vector<Vec3>& nodes, const Volume& volume, double max_length,
-                             int sectors) {
-  const Solid solid(volume);
+std::set<Edge> edges_by_hand(const std::vector<Vec3>& nodes, const PlainRules& rules, int sectors) {
   std::set<Edge> edges;
   for (std::uint32_t u = 0; u < nodes.size(); ++u) {
     std::vector<std::pair<double, std::uint32_t>> best(static_cast<std::size_t>(sectors), {1e300, 0});
     for (std::uint32_t v = 0; v < nodes.size(); ++v) {
+      if (u == v || !rules.allow(nodes, u, v)) continue;
       const Vec3 d = nodes[v] - nodes[u];
-      const double square = glm::dot(d, d);
-      if (u == v || square > max_length * max_length) continue;
-      if (!solid.contains(nodes[u] + 0.25 * d) || !solid.contains(nodes[u] + 0.5 * d) ||
-          !solid.contains(nodes[u] + 0.75 * d)) {
-        continue;
-      }
       auto& nearest = best[static_cast<std::size_t>(sector_of(d, sectors))];
-      nearest = std::min(nearest, {square, v});
+      nearest = std::min(nearest, {glm::dot(d, d), v});
     }
     for (const auto& [square, v] : best) {
       if (square < 1e300) edges.insert({std::min(u, v), std::max(u, v)});
@@ -50,28 +44,51 @@ std::set<Edge> edges_by_hand(const std::vector<Vec3>& nodes, const Volume& volum
   return edges;
 }
 
-std::set<Edge> as_set(const std::vector<Edge>& edges) {
-  std::set<Edge> set;
-  for (const auto& [a, b] : edges) set.insert({std::min(a, b), std::max(a, b)});
-  return set;
-}
-
 }  // namespace
 
 TEST_CASE("Yao graph: each node is joined to the nearest allowed node of each sector, as every pair shows") {
   for (const Place& place : places()) {
     for (const std::uint64_t seed : {1, 2}) {
       const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 350}, seed);
-      for (const int sectors : {6, 8}) {
+      const OpenDomain open(place.volume);
+      for (const int sectors : {6, 8, 14}) {
         for (const double max_edge : {1.2, 3.0, 30.0}) {
           INFO(place.name << ", seed " << seed << ", " << sectors << " sectors, max_edge " << max_edge);
           const double max_length = max_edge * nodes.spacing;
-          const OpenDomain open(place.volume);
           const EdgeRules rules(open.domain, nodes.position, max_length);
           const std::vector<Edge> edges = yao_edges(nodes.position, rules, sectors, nodes.spacing);
           CHECK(as_set(edges).size() == edges.size());  // each once
-          CHECK(as_set(edges) == edges_by_hand(nodes.position, place.volume, max_length, sectors));
+          CHECK(as_set(edges) == edges_by_hand(nodes.position, {open.solid, max_length}, sectors));
         }
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "Yao graph: a node behind an obstacle or in another subvolume gives its place to the next nearest") {
+  for (const Place& place : places()) {
+    const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 350}, 3);
+    const BallAndWall things{
+        .center = place.root + Vec3(0.3, 0.9, 0.1),
+        .radius = 0.5,
+        .wall = {place.root + Vec3(0.2, -3.0, -3.0), place.root + Vec3(0.201, 3.0, 3.0)}};
+    Parameters parameters;
+    parameters.obstacles = things.obstacles();
+    const Surroundings obstructed(parameters);
+    const OpenDomain open(place.volume);
+    const Domain closed{open.solid, obstructed};
+    const std::vector<std::uint32_t> subvolumes = drawn_subvolumes(nodes.position.size(), 4, 5);
+    for (const int sectors : {6, 8, 14}) {
+      for (const double max_edge : {1.5, 3.0, 30.0}) {
+        INFO(place.name << ", " << sectors << " sectors, max_edge " << max_edge);
+        const double max_length = max_edge * nodes.spacing;
+        const EdgeRules behind(closed, nodes.position, max_length);
+        CHECK(as_set(yao_edges(nodes.position, behind, sectors, nodes.spacing)) ==
+              edges_by_hand(nodes.position, {open.solid, max_length, &things}, sectors));
+        const EdgeRules elsewhere(open.domain, nodes.position, max_length, subvolumes);
+        CHECK(as_set(yao_edges(nodes.position, elsewhere, sectors, nodes.spacing)) ==
+              edges_by_hand(nodes.position, {open.solid, max_length, nullptr, subvolumes}, sectors));
       }
     }
   }
@@ -88,10 +105,11 @@ TEST_CASE("Yao graph: equal distances go to the lower number, in whatever order 
   for (const std::uint64_t seed : {1, 2, 3}) {
     Rng rng = Rng::stream(seed, Stream::dart, 0);
     for (std::size_t i = nodes.size(); i > 1; --i) std::swap(nodes[i - 1], nodes[rng.below(i)]);
-    for (const int sectors : {6, 8}) {
+    for (const int sectors : {6, 8, 14}) {
       const OpenDomain open(room);
       const EdgeRules rules(open.domain, nodes, 3.0);
-      CHECK(as_set(yao_edges(nodes, rules, sectors, 1.0)) == edges_by_hand(nodes, room, 3.0, sectors));
+      CHECK(as_set(yao_edges(nodes, rules, sectors, 1.0)) ==
+            edges_by_hand(nodes, {open.solid, 3.0}, sectors));
     }
   }
 }
@@ -117,7 +135,9 @@ TEST_CASE("Yao graph: it is the same for any number of threads") {
   CHECK(many == edges());
 }
 
-TEST_CASE("Yao graph: five to six undirected edges a node with octants, about four with cones") {
+TEST_CASE(
+    "Yao graph: five to six undirected edges a node with octants, about four with cones, nine with 14 "
+    "sectors") {
   const Volume ball{.shape = Shape::sphere, .radius = 2.0};
   const Nodes nodes = scatter_nodes(ball, Vec3(0.0), {.nodes = 8000});
   const OpenDomain open(ball);
@@ -129,6 +149,8 @@ TEST_CASE("Yao graph: five to six undirected edges a node with octants, about fo
   CHECK(a_node(8) < 5.7);
   CHECK(a_node(6) > 3.7);
   CHECK(a_node(6) < 4.3);
+  CHECK(a_node(14) > 8.0);
+  CHECK(a_node(14) < 10.0);
 }
 
 TEST_CASE("weights: length^p times a factor in its range, from the seed and the edge alone") {
