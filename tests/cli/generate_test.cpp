@@ -202,7 +202,7 @@ TEST_CASE("check: reads and validates and makes nothing") {
   const Folder folder;
   const Outcome outcome = run_program("check s4-fig6 xm12-fig5", folder.path().string());
   CHECK(outcome.code == 0);
-  CHECK(outcome.out == "s4-fig6: sound (growth, 5 steps)\nxm12-fig5: sound (pathplan, 1 step)\n");
+  CHECK(outcome.out == "s4-fig6: sound (growth, 5 steps)\nxm12-fig5: sound (pathplan, 2 steps)\n");
   CHECK(folder.count() == 0);
   CHECK(contains(run_program("check s4-fig6 --set growth.alpha=0.9").err, "stays a seed"));
 }
