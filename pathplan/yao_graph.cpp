@@ -80,8 +80,39 @@ struct Nearest {
   }
 };
 
+/// Sorts numbers that are all different.
+class Sorter {
+ public:
+  /// All numbers are less than `bound`.
+  explicit Sorter(std::size_t bound) : words_(bound / 64 + 1) {}
+
+  void sort(std::vector<std::uint32_t>& ids) {
+    if (std::is_sorted(ids.begin(), ids.end())) return;
+    if (words_ > kWordsPerNumber * ids.size()) return std::sort(ids.begin(), ids.end());
+    marks_.resize(words_, 0);
+    for (const std::uint32_t id : ids) marks_[id / 64] |= std::uint64_t{1} << id % 64;
+    ids.clear();
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
+      for (; marks_[i] != 0; marks_[i] &= marks_[i] - 1) {
+        ids.push_back(static_cast<std::uint32_t>(64 * i) +
+                      static_cast<std::uint32_t>(std::countr_zero(marks_[i])));
+      }
+    }
+  }
+
+ private:
+  // Words looked through for each number: comparing numbers takes longer.
+  static constexpr std::size_t kWordsPerNumber = 8;
+
+  std::size_t words_;
+  std::vector<std::uint64_t> marks_;  // a bit a number
+};
+
 /// The nodes of a cell and of those around it, by rising number, and how they lie to one node.
 struct Block {
+  explicit Block(std::size_t nodes) : sorter(nodes) {}
+
+  Sorter sorter;
   PointGrid::Cells cells;
   Box seen;  // all nodes in it are in the block
   std::vector<std::uint32_t> ids;
@@ -95,8 +126,8 @@ struct Block {
     ids.clear();
     grid.for_each_run(
         cells, [&](std::span<const std::uint32_t> run) { ids.insert(ids.end(), run.begin(), run.end()); });
-    // Nodes that are numbered in the order of cells are sorted already, all but the root.
-    if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
+    // Many nodes are numbered in the order of cells, all but the root, and sorted already; few are not.
+    sorter.sort(ids);
     for (std::vector<double>* axis : {&x, &y, &z}) axis->resize(ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const Vec3& node = nodes[ids[i]];
@@ -124,7 +155,7 @@ class Search {
 
   /// Sets targets[node] for all nodes in a range of cells.
   void run(std::size_t cell_begin, std::size_t cell_end, std::span<Targets> targets) const {
-    Block block;
+    Block block(nodes_.size());
     for (std::size_t cell = cell_begin; cell < cell_end; ++cell) {
       const std::span<const std::uint32_t> own = grid_.ids_in(cell);
       if (own.empty()) continue;
