@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
-#include <span>
-#include <string_view>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "bench/components.h"
 #include "bench/lone_run.h"
+#include "bench/program.h"
 #include "bench/results.h"
 #include "bench/trees.h"
 
@@ -94,24 +95,27 @@ int priority_steps(const Options& options) {
 
 void register_trees(Results& results, const Options& options) {
   const int repetitions = options.is_quick ? 2 : 3;
-  const auto grow = [&](const std::string& name, int steps, Trial trial) {
+  const auto add = [&](const std::string& name, int steps, Trial trial) {
     trial.assignments.insert(trial.assignments.begin(), steps_assignment(steps));
     register_trial(results, name, repetitions, trial);
   };
   for (const Size& size : kSizes) {
     if (options.is_quick && size.steps > kQuickSteps) continue;
-    grow(size_name(size.steps), size.steps, {});
-    if (size.steps == largest_steps(options)) grow(threads_name(size.steps), size.steps, {.threads = 2});
+    add(size_name(size.steps), size.steps, {.work = kGrowth});
+    if (size.steps != largest_steps(options)) continue;
+    add(threads_name(size.steps), size.steps, {.work = kGrowth, .threads = 2});
   }
   const std::vector<std::string> priority = {"growth.allocation=priority"};
-  grow(priority_name(priority_steps(options)), priority_steps(options), {.assignments = priority});
-  register_trial(results, kSpace, repetitions, {.assignments = space_assignments()});
+  add(priority_name(priority_steps(options)), priority_steps(options),
+      {.work = kGrowth, .assignments = priority});
+  register_trial(results, kSpace, repetitions, {.work = kGrowth, .assignments = space_assignments()});
 
-  grow(plain_name(kMediumSteps), kMediumSteps, {.version = Version::plain});
-  const Trial plain{.version = Version::plain, .assignments = {steps_assignment(kFullSteps)}};
+  add(plain_name(kMediumSteps), kMediumSteps, {.work = kPlain});
+  const Trial plain{.work = kPlain, .assignments = {steps_assignment(kFullSteps)}};
   if (!options.is_quick) register_trial(results, plain_name(kFullSteps), 1, plain);
   if (options.has_ten_million) {
-    const Trial trial{.threads = 2,
+    const Trial trial{.work = kGrowth,
+                      .threads = 2,
                       .assignments = {steps_assignment(kTenMillionSteps), "growth.max_internodes=20000000"}};
     register_trial(results, kTenMillion, 1, trial);
   }
@@ -149,9 +153,9 @@ void print_goals(const Results& results, const Options& options) {
             results.ratio(plain_name(kMediumSteps), size_name(kMediumSteps)), "x");
   add_components(table, results);
   table.add("space markers against light, an internode, 100,000",
-            results.ratio_per_internode(kSpace, size_name(kMediumSteps)), "x", Goal{3.0, 1.5});
+            results.ratio_each(kSpace, size_name(kMediumSteps)), "x", Goal{3.0, 1.5});
   table.add("priority against Borchert-Honda, an internode of a tree as large",
-            results.ratio_per_internode(priority_name(priority_steps(options)), one_thread), "x");
+            results.ratio_each(priority_name(priority_steps(options)), one_thread), "x");
   table.add("two threads against one", results.ratio(one_thread, threads_name(largest)), "x",
             Goal{1.5, 1.8, false});
   table.add_claim("  and they make the same skeleton, to the last bit",
@@ -165,7 +169,7 @@ void print_sizes(const Results& results) {
   constexpr const char* layout = "{:>10} {:>7} {:>9} {:>9} {:>12} {:>12} {:>9} {:>16}\n";
   std::vector<double> internodes;
   std::vector<double> seconds;
-  double slowdown = 1.0;
+  std::vector<Outcome> outcomes;
   const bool has_any = std::any_of(std::begin(kSizes), std::end(kSizes), [&](const Size& size) {
     return results.find(size_name(size.steps)).has_value();
   });
@@ -176,37 +180,28 @@ void print_sizes(const Results& results) {
   for (const Size& size : kSizes) {
     const std::optional<Outcome> outcome = results.find(size_name(size.steps));
     if (!outcome) continue;
-    internodes.push_back(outcome->internodes);
+    internodes.push_back(outcome->count);
     seconds.push_back(outcome->seconds);
-    slowdown = std::max(slowdown, outcome->seconds / outcome->cpu_seconds);
+    outcomes.push_back(*outcome);
     const double bytes = outcome->peak_bytes - outcome->bytes_at_start;
-    fmt::print(layout, outcome->internodes, size.steps, fmt::format("{:.3f}", outcome->seconds),
+    fmt::print(layout, outcome->count, size.steps, fmt::format("{:.3f}", outcome->seconds),
                fmt::format("{:.3f}", outcome->cpu_seconds),
-               fmt::format("{:.2f}", outcome->internodes / outcome->seconds / 1e6),
-               fmt::format("{:.0f}", bytes / outcome->internodes),
+               fmt::format("{:.2f}", outcome->count / outcome->seconds / 1e6),
+               fmt::format("{:.0f}", bytes / outcome->count),
                fmt::format("{:.0f}", outcome->peak_bytes / 1e6),
                size.peer_millions_per_s > 0.0 ? fmt::format("{} million/s", size.peer_millions_per_s) : "");
   }
   if (internodes.size() < 2) return;
   fmt::print("time grows as N^{:.2f} (reach: N^1.3)\n", fitted_exponent(internodes, seconds));
-  if (slowdown > 1.05) {
-    fmt::print("The machine was busy: these runs took up to {:.2f} times their CPU time.\n", slowdown);
-  }
+  print_if_busy(outcomes);
 }
 
 /// Takes our own options out of the arguments.
 Options parse_options(int& argc, char** argv) {
-  Options options;
-  const auto take = [&](const char* flag, bool& value) {
-    char** const end = std::remove(argv + 1, argv + argc, std::string_view(flag));
-    value = end != argv + argc;
-    argc = static_cast<int>(end - argv);
-  };
-  take("--quick", options.is_quick);
-  take("--ten-million", options.has_ten_million);
-  take("--check", options.only_checks);
-  take("--help", options.wants_help);
-  return options;
+  return {.is_quick = take_flag(argc, argv, "--quick"),
+          .has_ten_million = take_flag(argc, argv, "--ten-million"),
+          .only_checks = take_flag(argc, argv, "--check"),
+          .wants_help = take_flag(argc, argv, "--help")};
 }
 
 int run(int argc, char** argv) {
@@ -238,13 +233,5 @@ int run(int argc, char** argv) {
 }  // namespace ramify::bench
 
 int main(int argc, char** argv) {
-  using namespace ramify::bench;
-  try {
-    const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
-    const bool is_lone_run = argc > 1 && std::string_view(argv[1]) == kLoneRunFlag;
-    return is_lone_run ? answer_trial(arguments.subspan(2)) : run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  return ramify::bench::run_program(argc, argv, ramify::bench::run, ramify::bench::grow);
 }

@@ -10,11 +10,8 @@
 #include <memory>
 #include <sstream>
 
-#include "bench/plain_growth.h"
-#include "bench/trees.h"
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
-#include "growth/engine.h"
 
 namespace ramify::bench {
 namespace {
@@ -25,8 +22,7 @@ std::string quoted(const std::string& argument) {
 
 std::string command_of(const Trial& trial) {
   std::string command = quoted(std::filesystem::read_symlink("/proc/self/exe").string());
-  command += fmt::format(" {} {} {}", kLoneRunFlag, trial.version == Version::plain ? "plain" : "growth",
-                         trial.threads);
+  command += fmt::format(" {} {} {}", kLoneRunFlag, trial.work, trial.threads);
   for (const std::string& assignment : trial.assignments) command += " " + quoted(assignment);
   return command;
 }
@@ -43,33 +39,20 @@ double peak_bytes() {
   throw RunError("/proc/self/status has no line VmHWM");
 }
 
-Outcome grow(Version version, const growth::Parameters& parameters) {
+}  // namespace
+
+Outcome measured(const std::function<void()>& work) {
   using Clock = std::chrono::steady_clock;
   Outcome outcome;
   outcome.bytes_at_start = peak_bytes();
   const std::clock_t cpu_start = std::clock();
   const Clock::time_point start = Clock::now();
-  const auto stop = [&] {
-    outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    outcome.cpu_seconds = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
-    outcome.peak_bytes = peak_bytes();
-  };
-  if (version == Version::plain) {
-    PlainTree tree(parameters);
-    tree.grow();
-    stop();
-    outcome.internodes = static_cast<double>(tree.internode_count());
-    return outcome;
-  }
-  const RunResult result = growth::Engine::run(parameters, {});
-  stop();
-  if (!result.is_complete) throw RunError(result.report.warnings.front());
-  outcome.internodes = static_cast<double>(result.skeleton.internode_count());
-  outcome.skeleton = fingerprint(result.skeleton);
+  work();
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  outcome.cpu_seconds = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  outcome.peak_bytes = peak_bytes();
   return outcome;
 }
-
-}  // namespace
 
 Outcome run_alone(const Trial& trial) {
   const std::string command = command_of(trial);
@@ -82,22 +65,22 @@ Outcome run_alone(const Trial& trial) {
   }
   std::istringstream text(answer);
   Outcome outcome;
-  text >> outcome.seconds >> outcome.cpu_seconds >> outcome.internodes >> outcome.bytes_at_start >>
+  text >> outcome.seconds >> outcome.cpu_seconds >> outcome.count >> outcome.bytes_at_start >>
       outcome.peak_bytes >> outcome.skeleton;
   if (!text) throw RunError(fmt::format("{}: no outcome", command));
   return outcome;
 }
 
-int answer_trial(std::span<char* const> arguments) {
+int answer_trial(std::span<char* const> arguments, const Performer& perform) {
   if (arguments.size() < 2) {
-    fmt::print(stderr, "error: {} VERSION THREADS [KEY=VALUE]...\n", kLoneRunFlag);
+    fmt::print(stderr, "error: {} WORK THREADS [KEY=VALUE]...\n", kLoneRunFlag);
     return 2;
   }
-  const Version version = std::string(arguments[0]) == "plain" ? Version::plain : Version::growth;
-  const ThreadLimit limit(std::stoi(arguments[1]));
-  const auto rest = arguments.subspan(2);
-  const Outcome outcome = grow(version, trial_parameters({rest.begin(), rest.end()}));
-  fmt::print("{} {} {} {} {} {}\n", outcome.seconds, outcome.cpu_seconds, outcome.internodes,
+  Trial trial{.work = arguments[0], .threads = std::stoi(arguments[1])};
+  for (const char* assignment : arguments.subspan(2)) trial.assignments.emplace_back(assignment);
+  const ThreadLimit limit(trial.threads);
+  const Outcome outcome = perform(trial);
+  fmt::print("{} {} {} {} {} {}\n", outcome.seconds, outcome.cpu_seconds, outcome.count,
              outcome.bytes_at_start, outcome.peak_bytes, outcome.skeleton);
   return 0;
 }

@@ -3,12 +3,16 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
 
 namespace ramify::bench {
 namespace {
+
+// Seconds by CPU seconds of one thread on an idle machine stay below.
+constexpr double kBusy = 1.05;
 
 /// Without means and deviations: the quickest run is what counts.
 class LineReporter : public benchmark::ConsoleReporter {
@@ -53,11 +57,11 @@ std::optional<double> Results::ratio(const std::string& slow, const std::string&
   return a && b ? std::optional(a->seconds / b->seconds) : std::nullopt;
 }
 
-std::optional<double> Results::ratio_per_internode(const std::string& slow, const std::string& quick) const {
+std::optional<double> Results::ratio_each(const std::string& slow, const std::string& quick) const {
   const std::optional<Outcome> a = find(slow);
   const std::optional<Outcome> b = find(quick);
   if (!a || !b) return std::nullopt;
-  return (a->seconds / a->internodes) / (b->seconds / b->internodes);
+  return (a->seconds / a->count) / (b->seconds / b->count);
 }
 
 void register_work(Results& results, const std::string& name, int repetitions, std::function<Outcome()> run) {
@@ -67,7 +71,7 @@ void register_work(Results& results, const std::string& name, int repetitions, s
       try {
         const Outcome outcome = run();
         state.SetIterationTime(outcome.seconds);
-        if (outcome.internodes > 0.0) state.counters["internodes"] = outcome.internodes;
+        if (outcome.count > 0.0) state.counters["count"] = outcome.count;
         if (outcome.peak_bytes > 0.0) state.counters["peak_MB"] = outcome.peak_bytes / 1e6;
         results.add(name, outcome);
       } catch (const std::exception& error) {
@@ -120,6 +124,15 @@ void GoalTable::print() const {
   for (const Row& row : rows_) {
     fmt::print(layout, row.work, row.measured, row.reach, row.stretch, row.verdict);
   }
+}
+
+void print_if_busy(const std::vector<Outcome>& outcomes) {
+  double slowdown = 1.0;
+  for (const Outcome& outcome : outcomes) {
+    slowdown = std::max(slowdown, outcome.seconds / outcome.cpu_seconds);
+  }
+  if (slowdown < kBusy) return;
+  fmt::print("The machine was busy: these runs took up to {:.2f} times their CPU time.\n", slowdown);
 }
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {

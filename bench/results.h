@@ -25,8 +25,8 @@ class Results {
   /// How many times the seconds of `slow` are those of `quick`; nothing if one of them was not run.
   std::optional<double> ratio(const std::string& slow, const std::string& quick) const;
 
-  /// The same with the seconds an internode.
-  std::optional<double> ratio_per_internode(const std::string& slow, const std::string& quick) const;
+  /// The same with the seconds for each of what they made.
+  std::optional<double> ratio_each(const std::string& slow, const std::string& quick) const;
 
  private:
   std::map<std::string, Outcome> best_;
@@ -72,6 +72,9 @@ class GoalTable {
   };
   std::vector<Row> rows_;
 };
+
+/// A line if the machine was busy: how much longer than their CPU time these runs took.
+void print_if_busy(const std::vector<Outcome>& outcomes);
 
 /// The exponent p of y = c * x^p, by least squares on the logarithms. At least two different x.
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);

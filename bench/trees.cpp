@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 
+#include "bench/fingerprint.h"
 #include "bench/plain_growth.h"
-#include "common/config/job.h"
+#include "bench/preset_parameters.h"
+#include "common/base/errors.h"
 #include "common/config/presets.h"
 #include "growth/engine.h"
 
@@ -17,35 +17,13 @@ namespace {
 // Exponents and roots are rounded differently where widths are summed in another way.
 constexpr double kTolerance = 1e-9;
 
-constexpr std::uint64_t kFnvOffset = 0xcbf29ce484222325;
-constexpr std::uint64_t kFnvPrime = 0x100000001b3;
-
-/// FNV-1a over 8 bytes at a time.
-template <class T>
-void add_to(std::uint64_t& hash, const std::vector<T>& values) {
-  const std::size_t bytes = values.size() * sizeof(T);
-  const auto* data = reinterpret_cast<const unsigned char*>(values.data());
-  for (std::size_t i = 0; i < bytes; i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, data + i, std::min(sizeof word, bytes - i));
-    hash = (hash ^ word) * kFnvPrime;
-  }
-}
-
 }  // namespace
 
 growth::Parameters trial_parameters(const std::vector<std::string>& assignments) {
-  EngineRegistry registry;
-  growth::register_engine(registry);
-  const bool has_own_preset = find_preset("p09-640k") != nullptr;
-  std::vector<Override> overrides;
-  if (!has_own_preset) overrides.push_back({"bench", "steps", "72"});
-  for (const std::string& assignment : assignments) {
-    const std::size_t equals = assignment.find('=');
-    overrides.push_back({"bench", assignment.substr(0, equals), assignment.substr(equals + 1)});
-  }
-  const Job job = load_job(registry, has_own_preset ? "p09-640k" : "p09-fig7-50", overrides);
-  return *static_cast<const growth::Parameters*>(job.parameters.get());
+  if (find_preset("p09-640k")) return preset_parameters<growth::Engine>("p09-640k", assignments);
+  std::vector<std::string> as_large = {"steps=72"};
+  as_large.insert(as_large.end(), assignments.begin(), assignments.end());
+  return preset_parameters<growth::Engine>("p09-fig7-50", as_large);
 }
 
 std::optional<std::string> difference(const Skeleton& a, const Skeleton& b, double tolerance) {
@@ -66,12 +44,20 @@ std::optional<std::string> difference(const Skeleton& a, const Skeleton& b, doub
   return std::nullopt;
 }
 
-std::uint64_t fingerprint(const Skeleton& skeleton) {
-  std::uint64_t hash = kFnvOffset;
-  add_to(hash, skeleton.position);
-  add_to(hash, skeleton.parent);
-  add_to(hash, skeleton.diameter);
-  return hash;
+Outcome grow(const Trial& trial) {
+  const growth::Parameters parameters = trial_parameters(trial.assignments);
+  if (trial.work == kPlain) {
+    PlainTree tree(parameters);
+    Outcome outcome = measured([&] { tree.grow(); });
+    outcome.count = static_cast<double>(tree.internode_count());
+    return outcome;
+  }
+  RunResult result;
+  Outcome outcome = measured([&] { result = growth::Engine::run(parameters, {}); });
+  if (!result.is_complete) throw RunError(result.report.warnings.front());
+  outcome.count = static_cast<double>(result.skeleton.internode_count());
+  outcome.skeleton = fingerprint(result.skeleton);
+  return outcome;
 }
 
 std::optional<std::string> plain_difference(const std::vector<int>& steps) {

@@ -1,11 +1,11 @@
 // The trees that are grown to be measured, and whether two of them are the same.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/lone_run.h"
 #include "common/skeleton/skeleton.h"
 #include "growth/parameters.h"
 
@@ -19,8 +19,12 @@ growth::Parameters trial_parameters(const std::vector<std::string>& assignments)
 /// diameter by more than `tolerance` metres.
 std::optional<std::string> difference(const Skeleton& a, const Skeleton& b, double tolerance);
 
-/// Of positions, parents and diameters, to the last bit.
-std::uint64_t fingerprint(const Skeleton& skeleton);
+/// What a trial can be: growth/, or the plain version.
+inline constexpr const char* kGrowth = "growth";
+inline constexpr const char* kPlain = "plain";
+
+/// Grows the tree of a trial and measures that. Throws RunError if it does not get whole.
+Outcome grow(const Trial& trial);
 
 /// Grows trees of so many steps with growth/ and with the plain version. The first difference, if any.
 std::optional<std::string> plain_difference(const std::vector<int>& steps);

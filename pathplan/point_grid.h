@@ -1,6 +1,7 @@
 // Points in the cells of a uniform grid, so that those near a place are found without looking at the others.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,10 +18,10 @@ inline constexpr double kCellSpacings = 2.0;
 /// that they were given in. Any number of threads may ask.
 class PointGrid {
  public:
-  /// A box of cells, both corners included.
+  /// A box of cells, both corners included; at first it holds none.
   struct Cells {
-    Coord low;
-    Coord high;
+    Coord low{0};
+    Coord high{-1};
   };
 
   /// Cells of about `edge` metres, larger where there would be many more cells than points. O(points).
@@ -46,7 +47,24 @@ class PointGrid {
     for (int z = cells.low.z; z <= cells.high.z; ++z) {
       for (int y = cells.low.y; y <= cells.high.y; ++y) {
         // Neighbours along x stand together.
-        visit(run(first_[index_of({cells.low.x, y, z})], first_[index_of({cells.high.x, y, z}) + 1]));
+        visit(row(cells.low.x, cells.high.x, y, z));
+      }
+    }
+  }
+
+  /// The same without the cells of another box.
+  template <class Visit>
+  void for_each_run_outside(const Cells& other, const Cells& cells, const Visit& visit) const {
+    for (int z = cells.low.z; z <= cells.high.z; ++z) {
+      for (int y = cells.low.y; y <= cells.high.y; ++y) {
+        if (z < other.low.z || z > other.high.z || y < other.low.y || y > other.high.y) {
+          visit(row(cells.low.x, cells.high.x, y, z));
+          continue;
+        }
+        const int before = std::min(cells.high.x, other.low.x - 1);
+        const int after = std::max(cells.low.x, other.high.x + 1);
+        if (cells.low.x <= before) visit(row(cells.low.x, before, y, z));
+        if (after <= cells.high.x) visit(row(after, cells.high.x, y, z));
       }
     }
   }
@@ -57,6 +75,10 @@ class PointGrid {
  private:
   std::span<const std::uint32_t> run(std::uint32_t begin, std::uint32_t end) const {
     return std::span(ids_).subspan(begin, end - begin);
+  }
+
+  std::span<const std::uint32_t> row(int x_low, int x_high, int y, int z) const {
+    return run(first_[index_of({x_low, y, z})], first_[index_of({x_high, y, z}) + 1]);
   }
 
   /// The nearest cell for a point outside the grid.

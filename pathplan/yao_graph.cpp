@@ -20,37 +20,43 @@ constexpr std::size_t kGrain = 256;
 constexpr std::size_t kOneCellUpTo = 160;
 
 /// `condition ? yes : no`, of which the compiler would make a branch.
-template <class T>
-T picked(bool condition, T yes, T no) {
-  return no ^ ((yes ^ no) & (T{0} - static_cast<T>(condition)));
+std::uint64_t picked(bool condition, std::uint64_t yes, std::uint64_t no) {
+  return no ^ ((yes ^ no) & (std::uint64_t{0} - std::uint64_t{condition}));
 }
+
+// As wide as a coordinate: the compiler then works out two at a time.
+using Sector = std::uint64_t;
 
 struct Octants {
   static constexpr int kCount = 8;
-  static int of(const Vec3& d) { return (d.x < 0.0 ? 1 : 0) + (d.y < 0.0 ? 2 : 0) + (d.z < 0.0 ? 4 : 0); }
+  static Sector of(const Vec3& d) {
+    return Sector{d.x < 0.0} + 2 * Sector{d.y < 0.0} + 4 * Sector{d.z < 0.0};
+  }
   /// On which side of the node the sector lies along an axis: -1, 1, or 0 for both.
-  static int side(int sector, int axis) { return (sector >> axis & 1) != 0 ? -1 : 1; }
+  static int side(Sector sector, int axis) { return (sector >> axis & 1) != 0 ? -1 : 1; }
 };
 
 struct CubeFaces {
   static constexpr int kCount = 6;
-  static int of(const Vec3& d) {
+  static Sector of(const Vec3& d) {
     const Vec3 a = glm::abs(d);
     const bool is_x = (a.x >= a.y) & (a.x >= a.z);
     const bool is_y = a.y >= a.z;
-    const int along_x = d.x < 0.0 ? 1 : 0;
-    const int along_y = d.y < 0.0 ? 3 : 2;
-    const int along_z = d.z < 0.0 ? 5 : 4;
+    const Sector along_x{d.x < 0.0};
+    const Sector along_y = 2 + Sector{d.y < 0.0};
+    const Sector along_z = 4 + Sector{d.z < 0.0};
     return picked(is_x, along_x, picked(is_y, along_y, along_z));
   }
-  static int side(int sector, int axis) { return axis != sector / 2 ? 0 : (sector % 2 != 0 ? -1 : 1); }
+  static int side(Sector sector, int axis) {
+    return static_cast<Sector>(axis) != sector / 2 ? 0 : (sector % 2 != 0 ? -1 : 1);
+  }
 };
 
 /// The directions to a cube's faces, numbered as above, and to its corners, numbered as octants: that which
 /// is nearest by angle, a face's if two are.
 struct FacesAndCorners {
   static constexpr int kCount = CubeFaces::kCount + Octants::kCount;
-  static int of(const Vec3& d) {
+  static Sector of(const Vec3& d) {
     const Vec3 a = glm::abs(d);
     const double most = std::max({a.x, a.y, a.z});
     const double sum = a.x + a.y + a.z;
@@ -58,7 +64,7 @@ struct FacesAndCorners {
     const bool is_corner = sum * sum > 3.0 * most * most;
     return picked(is_corner, CubeFaces::kCount + Octants::of(d), CubeFaces::of(d));
   }
-  static int side(int sector, int axis) {
+  static int side(Sector sector, int axis) {
     return sector < CubeFaces::kCount ? CubeFaces::side(sector, axis)
                                       : Octants::side(sector - CubeFaces::kCount, axis);
   }
@@ -74,20 +80,66 @@ struct Nearest {
   }
 };
 
-/// The nodes of a cell and of those around it, by rising number.
-struct Block {
-  std::vector<std::uint32_t> ids;
-  std::vector<Vec3> points;
+/// Sorts numbers that are all different.
+class Sorter {
+ public:
+  /// All numbers are less than `bound`.
+  explicit Sorter(std::size_t bound) : words_(bound / 64 + 1) {}
 
-  void gather(const PointGrid& grid, const PointGrid::Cells& cells, std::span<const Vec3> nodes) {
+  void sort(std::vector<std::uint32_t>& ids) {
+    if (std::is_sorted(ids.begin(), ids.end())) return;
+    if (words_ > kWordsPerNumber * ids.size()) return std::sort(ids.begin(), ids.end());
+    marks_.resize(words_, 0);
+    for (const std::uint32_t id : ids) marks_[id / 64] |= std::uint64_t{1} << id % 64;
+    ids.clear();
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
+      for (; marks_[i] != 0; marks_[i] &= marks_[i] - 1) {
+        ids.push_back(static_cast<std::uint32_t>(64 * i) +
+                      static_cast<std::uint32_t>(std::countr_zero(marks_[i])));
+      }
+    }
+  }
+
+ private:
+  // Words looked through for each number: comparing numbers takes longer.
+  static constexpr std::size_t kWordsPerNumber = 8;
+
+  std::size_t words_;
+  std::vector<std::uint64_t> marks_;  // a bit a number
+};
+
+/// The nodes of a cell and of those around it, by rising number, and how they lie to one node.
+struct Block {
+  explicit Block(std::size_t nodes) : sorter(nodes) {}
+
+  Sorter sorter;
+  PointGrid::Cells cells;
+  Box seen;  // all nodes in it are in the block
+  std::vector<std::uint32_t> ids;
+  std::vector<double> x, y, z;
+  std::vector<std::uint64_t> keys;  // see Search::nearest_in()
+  std::vector<Sector> sectors;
+
+  void gather(const PointGrid& grid, std::size_t cell, std::span<const Vec3> nodes) {
+    cells = grid.around(cell);
+    seen = grid.covered_by(cells);
     ids.clear();
     grid.for_each_run(
         cells, [&](std::span<const std::uint32_t> run) { ids.insert(ids.end(), run.begin(), run.end()); });
-    // Nodes that are numbered in the order of cells are sorted already, all but the root.
-    if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
-    points.resize(ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i) points[i] = nodes[ids[i]];
+    // Many nodes are numbered in the order of cells, all but the root, and sorted already; few are not.
+    sorter.sort(ids);
+    for (std::vector<double>* axis : {&x, &y, &z}) axis->resize(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const Vec3& node = nodes[ids[i]];
+      x[i] = node.x;
+      y[i] = node.y;
+      z[i] = node.z;
+    }
+    keys.resize(ids.size());
+    sectors.resize(ids.size());
   }
+
+  Vec3 way_to(std::size_t i, const Vec3& from) const { return {x[i] - from.x, y[i] - from.y, z[i] - from.z}; }
 };
 
 /// The nearest allowed node in each sector, for any node.
@@ -103,14 +155,12 @@ class Search {
 
   /// Sets targets[node] for all nodes in a range of cells.
   void run(std::size_t cell_begin, std::size_t cell_end, std::span<Targets> targets) const {
-    Block block;
+    Block block(nodes_.size());
     for (std::size_t cell = cell_begin; cell < cell_end; ++cell) {
       const std::span<const std::uint32_t> own = grid_.ids_in(cell);
       if (own.empty()) continue;
-      const PointGrid::Cells around = grid_.around(cell);
-      const Box seen = grid_.covered_by(around);
-      block.gather(grid_, around, nodes_);
-      for (const std::uint32_t node : own) targets[node] = targets_of(node, block, seen);
+      block.gather(grid_, cell, nodes_);
+      for (const std::uint32_t node : own) targets[node] = targets_of(node, block);
     }
   }
 
@@ -121,15 +171,18 @@ class Search {
 
   /// All sectors at once in the block; then each on its own that may have a nearer node farther out, or
   /// whose node is not allowed.
-  Targets targets_of(std::uint32_t node, const Block& block, const Box& seen) const {
+  Targets targets_of(std::uint32_t node, Block& block) const {
     std::array<Nearest, Sectors::kCount> nearest = nearest_in(block, nodes_[node]);
     Targets targets;
-    for (int sector = 0; sector < Sectors::kCount; ++sector) {
+    for (Sector sector = 0; sector < Sectors::kCount; ++sector) {
       Nearest& best = nearest[sector];
-      const bool is_allowed = best.node == kNone || rules_.allows(node, best.node);
-      if (!is_allowed) best = none();
-      const double reach = seen_reach(seen, nodes_[node], sector);
-      if (!is_allowed || best.square >= reach * reach) look_farther(node, sector, best);
+      if (best.node != kNone && !rules_.allows(node, best.node)) {
+        best = none();
+        look_farther(node, sector, {}, best);
+      } else {
+        const double reach = seen_reach(block.seen, nodes_[node], sector);
+        if (best.square >= reach * reach) look_farther(node, sector, block.cells, best);
+      }
       targets[sector] = best.node;
     }
     return targets;
@@ -138,34 +191,43 @@ class Search {
   Nearest none() const { return {.square = rules_.max_length() * rules_.max_length()}; }
 
   /// The nearest node in each sector around `position`, one just there left out, whatever the rules allow.
-  /// Which of two is nearer cannot be foreseen, so the loop has no branch: 1.8 times as fast.
-  std::array<Nearest, Sectors::kCount> nearest_in(const Block& block, const Vec3& position) const {
+  std::array<Nearest, Sectors::kCount> nearest_in(Block& block, const Vec3& position) const {
     // Squares of distances compare as the whole numbers with the same bits do. Less 1, so that 0, which the
-    // node itself has, becomes the greatest; numbers rise, so that the lower of equals stays.
-    std::array<std::uint64_t, Sectors::kCount> key;
-    std::array<std::uint32_t, Sectors::kCount> place;
-    key.fill(std::bit_cast<std::uint64_t>(none().square));
-    place.fill(kNone);
-    for (std::uint32_t i = 0; i < block.points.size(); ++i) {
-      const Vec3 d = block.points[i] - position;
-      const std::uint64_t new_key = std::bit_cast<std::uint64_t>(glm::dot(d, d)) - 1;
-      const int sector = Sectors::of(d);
-      const bool is_nearer = new_key < key[sector];
-      key[sector] = picked(is_nearer, new_key, key[sector]);
-      place[sector] = picked(is_nearer, i, place[sector]);
+    // node itself has, becomes the greatest. The last bits, some part in 10^12, make room for the place in
+    // the block: numbers rise, so that the lower of equals is the lesser.
+    const std::size_t count = block.ids.size();
+    const std::uint64_t place_bits = std::bit_ceil(count + 1) - 1;
+    std::uint64_t* const keys = block.keys.data();
+    Sector* const sectors = block.sectors.data();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 d = block.way_to(i, position);
+      keys[i] = ((std::bit_cast<std::uint64_t>(glm::dot(d, d)) - 1) & ~place_bits) | i;
+      sectors[i] = Sectors::of(d);
+    }
+
+    // Which of two is nearer cannot be foreseen, so this loop has no branch.
+    const std::uint64_t farthest = std::bit_cast<std::uint64_t>(none().square) | place_bits;
+    std::array<std::uint64_t, Sectors::kCount> least;
+    least.fill(farthest);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint64_t& best = least[sectors[i]];
+      best = picked(keys[i] < best, keys[i], best);
     }
 
     std::array<Nearest, Sectors::kCount> nearest;
     nearest.fill(none());
     for (int sector = 0; sector < Sectors::kCount; ++sector) {
-      if (place[sector] == kNone) continue;
-      nearest[sector] = {std::bit_cast<double>(key[sector] + 1), block.ids[place[sector]]};
+      if (least[sector] == farthest) continue;
+      const std::size_t place = least[sector] & place_bits;
+      const Vec3 d = block.way_to(place, position);
+      const double square = glm::dot(d, d);
+      if (square <= none().square) nearest[sector] = {square, block.ids[place]};
     }
     return nearest;
   }
 
   /// How far all of a sector has been seen.
-  static double seen_reach(const Box& seen, const Vec3& position, int sector) {
+  static double seen_reach(const Box& seen, const Vec3& position, Sector sector) {
     double reach = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
       const int side = Sectors::side(sector, axis);
@@ -175,8 +237,9 @@ class Search {
     return reach;
   }
 
-  /// The sector's part of the box that can hold a better node than the best so far.
-  void look_farther(std::uint32_t node, int sector, Nearest& best) const {
+  /// The sector's part of the box that can hold a better node than the best so far, without cells that have
+  /// been seen.
+  void look_farther(std::uint32_t node, Sector sector, const PointGrid::Cells& seen, Nearest& best) const {
     const Vec3 position = nodes_[node];
     const double reach = std::sqrt(best.square) * (1.0 + 1e-12);  // rounding must not hide a node
     Box box{position, position};
@@ -185,7 +248,7 @@ class Search {
       if (side >= 0) box.high[axis] += reach;
       if (side <= 0) box.low[axis] -= reach;
     }
-    grid_.for_each_run(grid_.touching(box), [&](std::span<const std::uint32_t> run) {
+    grid_.for_each_run_outside(seen, grid_.touching(box), [&](std::span<const std::uint32_t> run) {
       for (const std::uint32_t other : run) {
         const Vec3 d = nodes_[other] - position;
         if (Sectors::of(d) != sector || other == node) continue;

@@ -93,6 +93,8 @@ TEST_CASE("architecture: a library is named only where it belongs") {
       {"stb/", {"viewer/"}},
       {"tiny_gltf", {"common/mesh/"}},
       {"benchmark/", {"bench/"}},
+      {"nanoflann", {"bench/plain_"}},
+      {"boost/", {"bench/plain_"}},
   };
   for (const std::string folder : {"common", "growth", "pathplan", "viewer", "cli", "bench"}) {
     for (const Include& include : includes_below(folder)) {

@@ -1,0 +1,13 @@
+// Whether two trees are the same, bit by bit, when they are made in different processes.
+#pragma once
+
+#include <cstdint>
+
+#include "common/skeleton/skeleton.h"
+
+namespace ramify::bench {
+
+/// Of positions, parents and diameters, to the last bit.
+std::uint64_t fingerprint(const Skeleton& skeleton);
+
+}  // namespace ramify::bench
