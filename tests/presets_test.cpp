@@ -10,10 +10,26 @@
 #include "growth/engine.h"
 #include "pathplan/engine.h"
 #include "tests/catch.h"
+#include "tests/pathplan/graphs.h"
 
 using namespace ramify;
+using namespace ramify::test;
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Xu and Mould 2012, Fig. 22: a threshold graph with too few edges to hold together.
+constexpr std::string_view kCutOff = "xm12-fig22-sparse";
+
+EngineRegistry engines() {
+  EngineRegistry registry;
+  growth::register_engine(registry);
+  pathplan::register_engine(registry);
+  return registry;
+}
+
+}  // namespace
 
 TEST_CASE("presets: every file in configs/ is in the program, under a name of its own") {
   std::size_t files = 0;
@@ -45,17 +61,20 @@ TEST_CASE("presets: each opens with what it shows, its source and its time on 2 
 }
 
 TEST_CASE(
-    "presets: each makes a sound tree and mesh, without a warning, and its complete config the same tree") {
-  EngineRegistry registry;
-  growth::register_engine(registry);
-  pathplan::register_engine(registry);
+    "presets: each makes a sound tree and mesh, without a warning but where endpoints are cut off on "
+    "purpose, "
+    "and its complete config the same tree") {
+  const EngineRegistry registry = engines();
   for (const Preset& preset : presets()) {
     INFO(preset.name);
     const Job job = load_job(registry, std::string(preset.name));
     CHECK(job.warnings.empty());
     const RunResult result = job.run({});
     CHECK(result.is_complete);
-    CHECK(result.report.warnings.empty());
+    CHECK(result.report.warnings.empty() == (preset.name != kCutOff));
+    if (job.engine->name == "pathplan") {
+      CHECK((reported(result, "graph", "unreachable") > 0.0) == (preset.name == kCutOff));
+    }
     CHECK(violations(result.skeleton).empty());
     CHECK(result.skeleton.internode_count() > 20);
     CHECK(build_mesh(result.skeleton, job.mesher).triangles.size() > 100);
@@ -65,5 +84,21 @@ TEST_CASE(
     TomlDocument(to_toml(job), "complete").read_into(job_table(*job.engine), &again, {"engine"}, origins);
     CHECK(to_toml(again) == to_toml(job));
     CHECK(again.run({}).skeleton.position == result.skeleton.position);
+  }
+}
+
+TEST_CASE("presets: the trees of Xu and Mould's Table 1 have its numbers of nodes and endpoints") {
+  const std::set<std::pair<double, double>> printed = {{351'810, 34'740}, {207'458, 9'330}, {84'755, 3'732}};
+  const EngineRegistry registry = engines();
+  std::set<std::pair<double, double>> found;
+  for (const Preset& preset : presets()) {
+    if (preset.name.rfind("xm12-table1-", 0) != 0) continue;
+    INFO(preset.name);
+    const RunResult result = load_job(registry, std::string(preset.name)).run({});
+    const std::pair<double, double> sizes(reported(result, "all_graphs", "nodes"),
+                                          reported(result, "all_graphs", "endpoints"));
+    INFO(sizes.first << " nodes, " << sizes.second << " endpoints");
+    CHECK(printed.count(sizes) == 1);
+    CHECK(found.insert(sizes).second);
   }
 }
