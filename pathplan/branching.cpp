@@ -95,7 +95,7 @@ class Planner {
                                      .high = row.weight_high,
                                      .seed = site_.seed});
     } else {
-      graph_.weights.assign(graph_.edges.size(), 1.0f);
+      assign_lengths(graph_);
     }
     if (domain_.surroundings.has_costs()) apply_cost_factors(graph_, domain_);
     link_nodes(graph_);
@@ -103,7 +103,8 @@ class Planner {
 
   void make_paths() {
     if (pattern_.row.weights != WeightKind::random) {
-      guided_.emplace(graph_, pattern_.row, spacing_, site_.axis, site_.seed);
+      guided_.emplace(graph_, pattern_.row, spacing_, site_.axis, site_.seed,
+                      domain_.surroundings.has_costs());
     }
     paths_.emplace(graph_.nodes.size());
     plan_first_paths();

@@ -28,9 +28,11 @@ struct Guide {
 class GuidedSearch {
  public:
   /// The root, node 0, is guided along `axis` (unit), the middle of the trunk; `spacing` of the nodes in
-  /// metres. The graph's weights are cost factors: an edge of length l from u along e costs
-  /// factor * l * (1 - g_u . e + epsilon). `graph` is looked at later: it must outlive the search. O(edges).
-  GuidedSearch(const Graph& graph, const Level& level, double spacing, const Vec3& axis, std::uint64_t seed);
+  /// metres. A weight of the graph is an edge's length times its cost factor, if there are factors: an edge
+  /// from u along e costs weight * (1 - g_u . e + epsilon). `graph` is looked at later: it must outlive the
+  /// search. O(edges).
+  GuidedSearch(const Graph& graph, const Level& level, double spacing, const Vec3& axis, std::uint64_t seed,
+               bool has_cost_factors = false);
 
   /// Least-cost paths from the sources, which must have been reached before (or be the root) and keep their
   /// vectors; all others get new ones. Paths are those of a search that settles nodes by rising cost, equal
@@ -42,24 +44,28 @@ class GuidedSearch {
   double edge_length() const { return edge_length_; }
 
   /// What the edge from one node to another costs by the vectors as they are.
-  double cost(std::uint32_t from, std::uint32_t to, double factor) const {
-    const Vec3 way = graph_.nodes[to] - graph_.nodes[from];
-    return factor *
-           (std::sqrt(glm::dot(way, way)) * (1.0 + guiding_.epsilon) - glm::dot(guides_[from].vector, way));
+  double cost(std::uint32_t from, std::uint32_t to, double weight) const {
+    return cost(guides_[from].vector, graph_.nodes[to] - graph_.nodes[from], weight);
   }
 
  private:
+  double cost(const Vec3& vector, const Vec3& way, double weight) const {
+    const double factor = has_cost_factors_ ? weight / glm::length(way) : 1.0;
+    return weight * (1.0 + guiding_.epsilon) - factor * glm::dot(vector, way);
+  }
+
   template <class Queue>
   ShortestPaths search(Queue queue, std::span<const std::uint32_t> sources, const std::stop_token& stop);
-  Guide guide_after(std::uint32_t parent, std::uint32_t node) const;
-  Guide turned_outwards(const Guide& before, std::uint32_t node, double way) const;
-  Guide turned_by_periods(const Guide& before, std::uint32_t node, double way) const;
+  void set_guide(std::uint32_t node, std::uint32_t parent);
+  void turn_outwards(Guide& guide, std::uint32_t node, double way) const;
+  void turn_by_periods(Guide& guide, std::uint32_t node, double way) const;
   double periodic_angle(std::uint32_t node, Rng& rng) const;
   double value_at(const Schedule& schedule, std::uint32_t node) const;
 
   const Graph& graph_;
   const Guiding& guiding_;
   bool is_periodic_;
+  bool has_cost_factors_;
   double spacing_;  // metres
   Vec3 axis_;
   std::uint64_t seed_;

@@ -26,6 +26,16 @@ void assign_random_weights(Graph& graph, const RandomWeights& weights) {
   });
 }
 
+void assign_lengths(Graph& graph) {
+  graph.weights.resize(graph.edges.size());
+  parallel_for(graph.edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [a, b] = graph.edges[i];
+      graph.weights[i] = static_cast<float>(glm::distance(graph.nodes[a], graph.nodes[b]));
+    }
+  });
+}
+
 void apply_cost_factors(Graph& graph, const Domain& domain) {
   parallel_for(graph.edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

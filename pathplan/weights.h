@@ -1,4 +1,4 @@
-// Random weights of a graph's edges: the more they vary, the more crooked its least-cost paths.
+// Weights of a graph's edges. Random ones make crooked least-cost paths: the more they vary, the more.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,9 @@ struct RandomWeights {
 /// Sets graph.weights, one an edge. A weight depends on the seed and the numbers of the edge's ends alone.
 /// O(edges) on all threads.
 void assign_random_weights(Graph& graph, const RandomWeights& weights);
+
+/// Sets graph.weights to the lengths of the edges, metres. O(edges) on all threads.
+void assign_lengths(Graph& graph);
 
 /// Multiplies each edge's weight by the cost factors of the surroundings at its middle. O(edges) on all
 /// threads.

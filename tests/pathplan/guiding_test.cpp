@@ -25,7 +25,8 @@ struct PlainSearch {
 /// The definition: the least label by (cost, number) is settled, gets its vector from its final parent's, and
 /// only then its edges are costed.
 PlainSearch plain_search(const Graph& graph, double epsilon, const std::vector<std::uint32_t>& sources,
-                         const std::vector<Guide>& source_guides, const GuideRule& rule) {
+                         const std::vector<Guide>& source_guides, const GuideRule& rule,
+                         bool has_cost_factors = false) {
   const std::size_t count = graph.nodes.size();
   PlainSearch found{std::vector<double>(count, kUnreached), std::vector<std::uint32_t>(count, kNoParent),
                     source_guides};
@@ -41,10 +42,12 @@ PlainSearch plain_search(const Graph& graph, double epsilon, const std::vector<s
     labels.erase(labels.begin());
     if (found.parent[u] != kNoParent)
       found.guides[u] = rule(found.guides[found.parent[u]], found.parent[u], u);
-    for (const auto& [v, factor] : links[u]) {
+    for (const auto& [v, weight] : links[u]) {
+      // A weight is a length, rounded to single precision, times a factor if there are such.
       const double length = glm::distance(graph.nodes[u], graph.nodes[v]);
+      const double along = has_cost_factors ? weight : length;
       const Vec3 e = (graph.nodes[v] - graph.nodes[u]) / length;
-      const double there = cost + factor * length * (1.0 - glm::dot(found.guides[u].vector, e) + epsilon);
+      const double there = cost + weight * (1.0 + epsilon) - along * glm::dot(found.guides[u].vector, e);
       if (there >= found.cost[v]) continue;
       labels.erase({found.cost[v], v});
       labels.emplace(found.cost[v] = there, v);
@@ -133,8 +136,12 @@ void check_search(const ShortestPaths& paths, const GuidedSearch& search, const 
 Graph chain(std::vector<Vec3> nodes) {
   std::vector<Edge> edges;
   for (std::uint32_t i = 1; i < nodes.size(); ++i) edges.push_back({i - 1, i});
-  const std::vector<float> weights(edges.size(), 1.0f);
-  return graph_of(std::move(nodes), std::move(edges), weights);
+  Graph graph;
+  graph.nodes = std::move(nodes);
+  graph.edges = std::move(edges);
+  assign_lengths(graph);
+  link_nodes(graph);
+  return graph;
 }
 
 double angle_deg(const Vec3& a, const Vec3& b) {
@@ -143,7 +150,7 @@ double angle_deg(const Vec3& a, const Vec3& b) {
 
 /// A graph whose edges cost `low` to `high` times as much as they would.
 Graph guided_graph(const Place& place, int nodes, std::uint64_t seed, double low = 1.0, double high = 1.0) {
-  return graph_in(place, nodes, {.exponent = 0.0, .low = low, .high = high, .seed = seed});
+  return graph_in(place, nodes, {.exponent = 1.0, .low = low, .high = high, .seed = seed});
 }
 
 double spacing_of(const Place& place, int nodes) {
@@ -154,9 +161,9 @@ double spacing_of(const Place& place, int nodes) {
 
 TEST_CASE("guiding: an edge costs its length times 1 - cosine + epsilon, times its factor") {
   const Graph graph = graph_of({{0, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, -1, 0}, {0, 3, 4}},
-                               {{0, 1}, {0, 2}, {0, 3}, {0, 4}}, {1.0f, 1.0f, 1.0f, 2.0f});
+                               {{0, 1}, {0, 2}, {0, 3}, {0, 4}}, {1.0f, 2.0f, 1.0f, 10.0f});
   const Level level = level_of(WeightKind::incremental, {.alpha_deg = 0.0, .epsilon = 0.25});
-  GuidedSearch search(graph, level, 1.0, kUp, 1);
+  GuidedSearch search(graph, level, 1.0, kUp, 1, true);
   const std::vector<double> expected = {0.0, 0.25, 2.5, 2.25, 2.0 * 5.0 * (1.25 - 0.6)};
   const ShortestPaths paths = search.paths_from(kRoot);
   for (std::size_t i = 0; i < 5; ++i) CHECK(std::abs(paths.cost[i] - expected[i]) < 1e-12);
@@ -212,11 +219,11 @@ TEST_CASE("guiding: incremental costs, paths and vectors are those of the defini
         const double spacing = spacing_of(place, 900);
         const Graph graph = guided_graph(place, 900, 1, 0.5, axis == kUp ? 0.5 : 2.0);
         const Level level = level_of(WeightKind::incremental, guiding);
-        GuidedSearch search(graph, level, spacing, axis, 1);
+        GuidedSearch search(graph, level, spacing, axis, 1, true);
         const ShortestPaths paths = search.paths_from(kRoot);
         check_search(paths, search,
                      plain_search(graph, guiding.epsilon, kRoot, root_guide(graph, axis),
-                                  incremental_rule(graph, guiding, spacing, axis)));
+                                  incremental_rule(graph, guiding, spacing, axis), true));
       }
     }
   }
@@ -245,12 +252,12 @@ TEST_CASE("guiding: periodic costs and paths are those of the definition, by eve
         const Graph graph = guided_graph(place, 900, 2, 0.5, 1.0);
         const Guiding guiding{.alpha_deg = alpha, .d = d};
         const Level level = level_of(WeightKind::periodic, guiding);
-        GuidedSearch search(graph, level, 1.0, kUp, 3);
+        GuidedSearch search(graph, level, 1.0, kUp, 3, true);
         const ShortestPaths paths = search.paths_from(kRoot);
         const std::vector<Guide>& guides = search.guides();
         check_search(paths, search,
                      plain_search(graph, guiding.epsilon, kRoot, root_guide(graph, kUp),
-                                  periodic_rule(graph, guiding, guides)));
+                                  periodic_rule(graph, guiding, guides), true));
         int turns = 0;
         for (std::uint32_t node = 1; node < graph.nodes.size(); ++node) {
           if (!paths.is_reached(node) || guides[node].walked != 0.0) continue;
