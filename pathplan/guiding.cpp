@@ -21,7 +21,7 @@ GuidedSearch::GuidedSearch(const Graph& graph, const Level& level, double spacin
     : graph_(graph),
       guiding_(level.guiding),
       is_periodic_(level.weights == WeightKind::periodic),
-      has_cost_factors_(has_cost_factors),
+      cost_{1.0 + level.guiding.epsilon, has_cost_factors},
       spacing_(spacing),
       axis_(axis),
       seed_(seed),
@@ -51,6 +51,7 @@ ShortestPaths GuidedSearch::search(Queue queue, std::span<const std::uint32_t> s
   ShortestPaths paths = unsearched_paths(graph_.nodes.size(), sources);
   const std::span<double> costs = paths.cost;
   const std::span<std::uint32_t> parents = paths.parent;
+  const GuidedCost cost = cost_;  // here, or it would be read again for each edge
   for (const std::uint32_t source : sources) queue.push(0.0, source);
   while (!queue.is_empty() && !stop.stop_requested()) {
     const auto [cost_here, node] = queue.pop();
@@ -96,20 +97,21 @@ void GuidedSearch::turn_outwards(Guide& guide, std::uint32_t node, double way) c
   if (from_trunk < spacing_) return;  // which way is out is not clear yet
   const double most = radians(guiding_.max_turn_deg);
   const double step = radians(value_at(guiding_.alpha_deg, node)) * way / spacing_;
-  const double turned = std::clamp(guide.turned + step, -most, most);
-  const Vec3 hinge = glm::cross(axis_, aside / from_trunk);
-  guide.vector = rotated(guide.vector, hinge, turned - guide.turned);
-  guide.turned = turned;
+  const double turned = std::clamp(guide.progress + step, -most, most);
+  if (turned == guide.progress) return;  // it has turned as far as it may
+  const Vec3 hinge = glm::cross(axis_, aside) * (1.0 / from_trunk);
+  guide.vector = rotated(guide.vector, hinge, turned - guide.progress);
+  guide.progress = turned;
 }
 
 /// About a random axis across the vector, each time that the way since the last turn has got long enough.
 void GuidedSearch::turn_by_periods(Guide& guide, std::uint32_t node, double way) const {
-  guide.walked += way;
-  if (guide.walked < value_at(guiding_.d, node) * edge_length_) return;
+  guide.progress += way;
+  if (guide.progress < value_at(guiding_.d, node) * edge_length_) return;
   Rng rng = Rng::stream(seed_, Stream::turn, node);
   const Vec3 hinge = perpendicular_at(guide.vector, rng.uniform(0.0, 2.0 * std::numbers::pi));
   guide.vector = rotated(guide.vector, hinge, periodic_angle(node, rng));
-  guide.walked = 0.0;
+  guide.progress = 0.0;
 }
 
 /// Radians; drawn where there are chances.

@@ -18,10 +18,20 @@
 
 namespace ramify::pathplan {
 
+/// What an edge costs: weight * (1 - cosine to the guiding vector + epsilon).
+struct GuidedCost {
+  double across;          // of a unit of weight across the vector: 1 + epsilon
+  bool has_cost_factors;  // else a weight is a length
+
+  double operator()(const Vec3& vector, const Vec3& way, double weight) const {
+    const double factor = has_cost_factors ? weight / glm::length(way) : 1.0;
+    return weight * across - factor * glm::dot(vector, way);
+  }
+};
+
 struct Guide {
-  Vec3 vector{0.0};   // unit; 0 where the node was not reached
-  double turned = 0;  // incremental: radians in all
-  double walked = 0;  // periodic: metres since the last turn
+  Vec3 vector{0.0};     // unit; 0 where the node was not reached
+  double progress = 0;  // incremental: radians turned in all; periodic: metres walked since the last turn
 };
 
 /// The guiding vectors of one graph, kept from one search to the next.
@@ -45,15 +55,10 @@ class GuidedSearch {
 
   /// What the edge from one node to another costs by the vectors as they are.
   double cost(std::uint32_t from, std::uint32_t to, double weight) const {
-    return cost(guides_[from].vector, graph_.nodes[to] - graph_.nodes[from], weight);
+    return cost_(guides_[from].vector, graph_.nodes[to] - graph_.nodes[from], weight);
   }
 
  private:
-  double cost(const Vec3& vector, const Vec3& way, double weight) const {
-    const double factor = has_cost_factors_ ? weight / glm::length(way) : 1.0;
-    return weight * (1.0 + guiding_.epsilon) - factor * glm::dot(vector, way);
-  }
-
   template <class Queue>
   ShortestPaths search(Queue queue, std::span<const std::uint32_t> sources, const std::stop_token& stop);
   void set_guide(std::uint32_t node, std::uint32_t parent);
@@ -65,7 +70,7 @@ class GuidedSearch {
   const Graph& graph_;
   const Guiding& guiding_;
   bool is_periodic_;
-  bool has_cost_factors_;
+  GuidedCost cost_;
   double spacing_;  // metres
   Vec3 axis_;
   std::uint64_t seed_;

@@ -75,14 +75,14 @@ GuideRule incremental_rule(const Graph& graph, const Guiding& guiding, double sp
     const double way = glm::distance(graph.nodes[parent], graph.nodes[node]);
     const double alpha = radians(guiding.alpha_deg.at(glm::length(from_root) / farthest));
     const double limit = radians(guiding.max_turn_deg);
-    const double turned = std::min(limit, std::max(-limit, before.turned + alpha * way / spacing));
-    const double turn = turned - before.turned;
+    const double turned = std::min(limit, std::max(-limit, before.progress + alpha * way / spacing));
+    const double turn = turned - before.progress;
     const double along = glm::dot(before.vector, axis);
     const double outwards = glm::dot(before.vector, out);
     const Vec3 rest = before.vector - along * axis - outwards * out;
     return Guide{.vector = rest + axis * (along * std::cos(turn) - outwards * std::sin(turn)) +
                            out * (along * std::sin(turn) + outwards * std::cos(turn)),
-                 .turned = turned};
+                 .progress = turned};
   };
 }
 
@@ -95,9 +95,9 @@ GuideRule periodic_rule(const Graph& graph, const Guiding& guiding, const std::v
   edge_length /= static_cast<double>(graph.edges.size());
   return [&graph, &guiding, &found, farthest, edge_length](const Guide& before, std::uint32_t parent,
                                                            std::uint32_t node) {
-    const double walked = before.walked + glm::distance(graph.nodes[parent], graph.nodes[node]);
+    const double walked = before.progress + glm::distance(graph.nodes[parent], graph.nodes[node]);
     const double period = guiding.d.at(glm::distance(graph.nodes[node], graph.nodes[0]) / farthest);
-    if (walked < period * edge_length) return Guide{.vector = before.vector, .walked = walked};
+    if (walked < period * edge_length) return Guide{.vector = before.vector, .progress = walked};
     return Guide{.vector = found[node].vector};
   };
 }
@@ -127,8 +127,7 @@ void check_search(const ShortestPaths& paths, const GuidedSearch& search, const 
     const Guide& guide = search.guides()[node];
     REQUIRE(std::abs(glm::length(guide.vector) - 1.0) < 1e-9);
     REQUIRE(glm::distance(guide.vector, plain.guides[node].vector) < 1e-9);
-    REQUIRE(std::abs(guide.turned - plain.guides[node].turned) < 1e-9);
-    REQUIRE(std::abs(guide.walked - plain.guides[node].walked) < 1e-9);
+    REQUIRE(std::abs(guide.progress - plain.guides[node].progress) < 1e-9);
   }
 }
 
@@ -260,7 +259,7 @@ TEST_CASE("guiding: periodic costs and paths are those of the definition, by eve
                                   periodic_rule(graph, guiding, guides), true));
         int turns = 0;
         for (std::uint32_t node = 1; node < graph.nodes.size(); ++node) {
-          if (!paths.is_reached(node) || guides[node].walked != 0.0) continue;
+          if (!paths.is_reached(node) || guides[node].progress != 0.0) continue;
           ++turns;
           const double share = glm::distance(graph.nodes[node], graph.nodes[0]) / farthest_from_root(graph);
           REQUIRE(std::abs(angle_deg(guides[paths.parent[node]].vector, guides[node].vector) -
@@ -280,7 +279,7 @@ TEST_CASE("guiding: periodic turns go to all sides alike, and belong to the seed
   int quarters[4] = {};
   int turns = 0;
   for (std::uint32_t node = 1; node < graph.nodes.size(); ++node) {
-    if (search.guides()[node].walked != 0.0) continue;
+    if (search.guides()[node].progress != 0.0) continue;
     const Vec3& before = search.guides()[paths.parent[node]].vector;
     const Vec3 side = any_perpendicular(before);
     const double x = glm::dot(search.guides()[node].vector, side);
@@ -307,7 +306,7 @@ TEST_CASE("guiding: angles of a table are drawn as often as it says, in place of
   int turns = 0;
   int found[3] = {};
   for (std::uint32_t node = 1; node < graph.nodes.size(); ++node) {
-    if (search.guides()[node].walked != 0.0) continue;
+    if (search.guides()[node].progress != 0.0) continue;
     ++turns;
     const double angle = angle_deg(search.guides()[paths.parent[node]].vector, search.guides()[node].vector);
     const double angles[] = {90.0, 30.0, 60.0};
