@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "common/base/parallel.h"
 #include "growth/allocation.h"
 #include "growth/cutting.h"
 #include "growth/environment_light.h"
@@ -114,11 +113,8 @@ bool Simulation::advance() {
   for (GrowingTree& tree : trees_) extend(tree, step);
   stopwatch_.lap("shoots");
 
-  // What is shed is known without the shadows of what has grown: the two go side by side.
-  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) i == 0 ? shadow_.cast(changes_.added) : lose(shaded, step);
-  });
-  shadow_.uncast(changes_.removed);
+  lose(shaded, step);
+  shadow_.change(changes_.added, changes_.removed);
   changes_.added.clear();
   changes_.removed.clear();
   stopwatch_.lap("shadow and shedding");
