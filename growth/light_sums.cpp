@@ -5,11 +5,8 @@
 namespace ramify::growth {
 
 void sum_light(const Plant& plant, const std::vector<double>& light, std::vector<LightSum>& sums) {
-  if (sums.capacity() < plant.node_count()) {
-    // The tree grows: room for some steps at once, and no copy of what is done with.
-    std::vector<LightSum>().swap(sums);
-    sums.reserve(plant.node_count() + plant.node_count() / 2);
-  }
+  sums.clear();  // before it may move: nothing of it is kept
+  make_room(sums, plant.node_count());
   sums.assign(plant.node_count(), {});
   for (std::size_t i = 0; i < plant.buds.size(); ++i) {
     const Bud& bud = plant.buds[i];

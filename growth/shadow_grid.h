@@ -45,6 +45,9 @@ class ShadowGrid {
   }
   Shadow at(Site site) const { return leaves_.at(site); }
   void prefetch(Site site) const { leaves_.prefetch(site); }
+  void prefetch(const Coord& voxel) const {
+    prefetch(leaves_.find(leaf_of(voxel)) * kLeafSize + place_in_leaf(voxel));
+  }
   LeafReader reader() const { return LeafReader(leaves_); }
 
   /// For quick reading: valid as long as the grid.
