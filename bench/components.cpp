@@ -122,8 +122,7 @@ Outcome cast_changes(Subjects& subjects) {
   ShadowGrid grid = subjects.empty_grid();
   return timed([&] {
     for (std::size_t step = 1; step < changes.added.size(); ++step) {
-      grid.cast(changes.added[step]);
-      grid.uncast(changes.removed[step]);
+      grid.change(changes.added[step], changes.removed[step]);
     }
   });
 }

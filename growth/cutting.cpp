@@ -9,11 +9,13 @@ std::vector<std::uint32_t> nodes_beyond(const Plant& plant, const std::vector<st
   if (cuts.empty()) return nodes;
   std::vector<std::uint8_t> goes(plant.node_count(), 0);
   for (const std::uint32_t cut : cuts) goes[cut] = 1;
-  for (std::uint32_t node = *std::min_element(cuts.begin(), cuts.end()); node < plant.node_count(); ++node) {
-    const std::uint32_t parent = plant.parent[node];
-    if (parent == kNone) continue;
-    goes[node] |= goes[parent];
-    if (goes[node]) nodes.push_back(node);
+  const auto count = static_cast<std::uint32_t>(plant.node_count());
+  const std::uint32_t* const parent = plant.parent.data();
+  std::uint8_t* const beyond = goes.data();
+  for (std::uint32_t node = *std::min_element(cuts.begin(), cuts.end()); node < count; ++node) {
+    if (parent[node] == kNone) continue;
+    beyond[node] |= beyond[parent[node]];
+    if (beyond[node]) nodes.push_back(node);
   }
   return nodes;
 }

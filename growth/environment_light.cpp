@@ -55,6 +55,15 @@ Vec3 LightSeeker::best_direction(const Vec3& apex, const Vec3& axis) const {
   return from_ == OptimalFrom::gradient ? gradient(apex) : darkest_free(apex, axis);
 }
 
+void LightSeeker::prefetch(const Vec3& apex, const Vec3& axis) const {
+  // Of the voxels around the middle of the cone two along y, and all along z, share a line of the cache.
+  const ShadowGrid& grid = field_.grid();
+  const Coord middle = grid.voxel_of(apex + axis * (0.7 * radius_ * grid.voxel_size()));
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; y += 2) grid.prefetch(middle + Coord(x, y, 0));
+  }
+}
+
 Vec3 LightSeeker::gradient(const Vec3& apex) const {
   const Vec3 slope = field_.slope(apex, probe_radius_);
   const double length = glm::length(slope);

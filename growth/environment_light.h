@@ -29,6 +29,9 @@ class LightSeeker {
   /// light, no longer than gradient_max.
   Vec3 best_direction(const Vec3& apex, const Vec3& axis) const;
 
+  /// Begins to fetch what best_direction() will read.
+  void prefetch(const Vec3& apex, const Vec3& axis) const;
+
  private:
   /// Whether a voxel is near enough, `square` being the square of its distance, and within the cone, `along`
   /// being its place along the axis; voxels.

@@ -1,28 +1,31 @@
 #include "growth/light_sums.h"
 
+#include <span>
+
 namespace ramify::growth {
 
 void sum_light(const Plant& plant, const std::vector<double>& light, std::vector<LightSum>& sums) {
-  if (sums.capacity() < plant.node_count()) {
-    // The tree grows: room for some steps at once, and no copy of what is done with.
-    std::vector<LightSum>().swap(sums);
-    sums.reserve(plant.node_count() + plant.node_count() / 2);
-  }
+  sums.clear();  // before it may move: nothing of it is kept
+  make_room(sums, plant.node_count());
   sums.assign(plant.node_count(), {});
-  std::size_t bud = plant.buds.size();
-  for (std::size_t node = plant.node_count(); node-- > 0;) {
-    LightSum& own = sums[node];
-    for (; bud > 0 && plant.buds[bud - 1].node >= node; --bud) {
-      if (plant.buds[bud - 1].is_dead()) continue;
-      (plant.buds[bud - 1].is_terminal ? own.main : own.lateral) += light[bud - 1];
-      ++own.buds;
-    }
-    const std::uint32_t parent = plant.parent[node];
-    if (parent == kNone) continue;
-    LightSum& below = sums[parent];
-    (plant.founds_axis[node] ? below.lateral : below.main) += own.total();
+  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
+    const Bud& bud = plant.buds[i];
+    if (bud.is_dead()) continue;
+    LightSum& own = sums[bud.node];
+    own.light[side_of(bud)] += light[i];
+    ++own.buds;
+  }
+  const std::span parent(plant.parent);
+  const std::span founds_axis(plant.founds_axis);
+  const std::span all(sums);
+  for (std::size_t node = plant.node_count(); node-- > 1;) {
+    if (parent[node] == kNone) continue;
+    LightSum& own = all[node];
+    ++own.internodes;
+    LightSum& below = all[parent[node]];
+    below.light[founds_axis[node]] += own.total();
     below.buds += own.buds;
-    below.internodes += ++own.internodes;
+    below.internodes += own.internodes;
   }
 }
 

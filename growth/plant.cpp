@@ -5,38 +5,36 @@
 namespace ramify::growth {
 namespace {
 
+// Which values stay is hard to foretell, so the loops below do not branch on it.
+
 template <class T>
 void close_holes(std::vector<T>& values, const std::vector<std::uint32_t>& new_index) {
-  if (values.empty()) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (new_index[i] != kNone) values[kept++] = values[i];
+    values[kept] = values[i];
+    kept += new_index[i] != kNone;
   }
   values.resize(kept);
 }
 
-/// An axis is gone with its first node.
-std::vector<std::uint32_t> numbered_axes(const Plant& plant) {
-  std::vector<std::uint32_t> new_index(plant.axes.size(), kNone);
-  std::uint32_t count = 0;
-  for (std::size_t i = 0; i < plant.axes.size(); ++i) {
-    if (!plant.is_cut(plant.axes[i].first)) new_index[i] = count++;
-  }
-  return new_index;
-}
-
-std::vector<std::uint32_t> numbered_nodes(const Plant& plant) {
-  std::vector<std::uint32_t> new_index(plant.node_count(), kNone);
-  std::uint32_t count = 0;
-  for (std::size_t node = 0; node < plant.node_count(); ++node) {
-    if (!plant.is_cut(node)) new_index[node] = count++;
+/// The places 0 .. count - 1 numbered anew, without those for which `is_hole`.
+template <class IsHole>
+std::vector<std::uint32_t> numbered(std::size_t count, const IsHole& is_hole) {
+  std::vector<std::uint32_t> new_index(count);
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool stays = !is_hole(i);
+    new_index[i] = stays ? kept : kNone;
+    kept += stays;
   }
   return new_index;
 }
 
 void close_nodes(Plant& plant) {
-  const std::vector<std::uint32_t> new_axis = numbered_axes(plant);
-  const std::vector<std::uint32_t> new_node = numbered_nodes(plant);
+  // An axis is gone with its first node.
+  const auto new_axis =
+      numbered(plant.axes.size(), [&](std::size_t i) { return plant.is_cut(plant.axes[i].first); });
+  const auto new_node = numbered(plant.node_count(), [&](std::size_t node) { return plant.is_cut(node); });
   close_holes(plant.axes, new_axis);
   for (Axis& axis : plant.axes) {
     axis.base = new_node[axis.base];

@@ -57,6 +57,14 @@ struct Plant {
   bool is_cut(std::size_t node) const { return node != 0 && parent[node] == kNone; }
 };
 
+/// Room for so many more values. By more than doubling: each time an array moves, the old one and the new one
+/// are both in memory, while room that is never used takes none.
+template <class T>
+void make_room(std::vector<T>& values, std::size_t more) {
+  constexpr std::size_t kGrowth = 4;
+  if (values.capacity() - values.size() < more) values.reserve(kGrowth * (values.size() + more));
+}
+
 /// The state of step 0: a terminal bud at the root, pointing up.
 Plant seedling(const TreePlace& place, Site site);
 

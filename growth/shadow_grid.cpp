@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
-#include <map>
+#include <iterator>
 #include <tuple>
 
 #include "common/base/parallel.h"
@@ -16,45 +15,72 @@ namespace {
 using Leaf = openvdb::Int32Tree::LeafNodeType;
 static_assert(Leaf::DIM == kLeafEdge && Leaf::SIZE == kLeafSize);
 
-// Casters that are worth a task of their own: fewer are done on one thread.
-constexpr std::size_t kCastersPerTask = 1024;
+// Casters that are worth more than one thread.
+constexpr std::size_t kCastersToShare = 1024;
 
-// More tasks than threads, that all are done at about the same time; each has its own slab of the world.
-constexpr std::size_t kMaxTasks = 16;
-
-/// Casters that stand in one leaf.
+/// Casters that stand in one leaf: those that come from begin to before middle, those that go up to end.
 struct Group {
   Coord leaf{0};
   Coord low{0};  // box of the casters
   Coord high{0};
   std::size_t begin = 0;
+  std::size_t middle = 0;
   std::size_t end = 0;
 };
 
-/// Casters sorted by leaf, and leaves along x, z and y: what is added one after the other lies near each
-/// other.
+/// Groups of leaves with one x, from begin to before end.
+struct Column {
+  int x = 0;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Casters sorted by leaf, and leaves by x, z and y.
 struct Groups {
   std::vector<Group> groups;
   std::vector<Coord> casters;
+
+  std::span<const Group> of(const Column& column) const {
+    return std::span(groups).subspan(column.begin, column.end - column.begin);
+  }
+  std::span<const Coord> added(const Group& group) const {
+    return std::span(casters).subspan(group.begin, group.middle - group.begin);
+  }
+  std::span<const Coord> removed(const Group& group) const {
+    return std::span(casters).subspan(group.middle, group.end - group.middle);
+  }
 };
 
-Groups grouped(std::span<const Coord> casters, const std::vector<std::uint32_t>& leaf_of_caster,
+/// Those that come, then those that go.
+struct CasterList {
+  std::span<const Coord> added;
+  std::span<const Coord> removed;
+
+  std::size_t size() const { return added.size() + removed.size(); }
+  bool is_added(std::size_t i) const { return i < added.size(); }
+  const Coord& operator[](std::size_t i) const { return is_added(i) ? added[i] : removed[i - added.size()]; }
+};
+
+Groups grouped(const CasterList& casters, const std::vector<std::uint32_t>& leaf_of_caster,
                std::uint32_t leaf_count) {
   Groups result;
   std::vector<std::uint32_t> group_of_leaf(leaf_count, 0);  // its place + 1
   for (std::size_t i = 0; i < casters.size(); ++i) {
+    const Coord& caster = casters[i];
     std::uint32_t& place = group_of_leaf[leaf_of_caster[i]];
     if (place == 0) {
-      result.groups.push_back({leaf_of(casters[i]), casters[i], casters[i], leaf_of_caster[i], 0});
+      result.groups.push_back(
+          {.leaf = leaf_of(caster), .low = caster, .high = caster, .begin = leaf_of_caster[i]});
       place = static_cast<std::uint32_t>(result.groups.size());
     }
     Group& group = result.groups[place - 1];
-    group.low = glm::min(group.low, casters[i]);
-    group.high = glm::max(group.high, casters[i]);
-    ++group.end;  // a count for now
+    group.low = glm::min(group.low, caster);
+    group.high = glm::max(group.high, caster);
+    group.middle += casters.is_added(i) ? 1 : 0;  // counts for now
+    ++group.end;
   }
-  std::stable_sort(result.groups.begin(), result.groups.end(), [](const Group& a, const Group& b) {
-    return std::tie(a.leaf.y, a.leaf.z, a.leaf.x) < std::tie(b.leaf.y, b.leaf.z, b.leaf.x);
+  std::sort(result.groups.begin(), result.groups.end(), [](const Group& a, const Group& b) {
+    return std::tie(a.leaf.x, a.leaf.z, a.leaf.y) < std::tie(b.leaf.x, b.leaf.z, b.leaf.y);
   });
   std::size_t next = 0;
   for (std::uint32_t i = 0; i < result.groups.size(); ++i) {
@@ -62,6 +88,7 @@ Groups grouped(std::span<const Coord> casters, const std::vector<std::uint32_t>&
     group_of_leaf[group.begin] = i;  // begin held the leaf's number
     const std::size_t count = group.end;
     group.begin = group.end = next;
+    group.middle += next;
     next += count;
   }
   result.casters.resize(casters.size());
@@ -71,100 +98,121 @@ Groups grouped(std::span<const Coord> casters, const std::vector<std::uint32_t>&
   return result;
 }
 
-/// Where the slabs of the tasks end: each has about as many casters. The last has no end.
-std::vector<int> slab_ends(const std::vector<Group>& groups, std::size_t caster_count) {
-  const std::size_t tasks = std::clamp<std::size_t>(caster_count / kCastersPerTask, 1, kMaxTasks);
-  std::map<int, std::size_t> casters_at;  // by x of their leaf
-  for (const Group& group : groups) casters_at[group.leaf.x] += group.end - group.begin;
-  std::vector<int> ends;
-  std::size_t count = 0;
-  for (const auto& [x, casters] : casters_at) {
-    count += casters;
-    if (count * tasks >= caster_count * (ends.size() + 1)) ends.push_back(x + 1);
+std::vector<Column> columns_of(const std::vector<Group>& groups) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (columns.empty() || columns.back().x != groups[i].leaf.x) columns.push_back({groups[i].leaf.x, i, i});
+    columns.back().end = i + 1;
   }
-  ends.back() = std::numeric_limits<int>::max();
-  return ends;
+  return columns;
 }
 
-/// The leaves that the shadows of a group fall in.
-class Window {
+// Voxels that are added to in one instruction. Unsigned, so that a sum past the largest shadow wraps instead
+// of being undefined.
+using Quad [[gnu::vector_size(kQuad * sizeof(Shadow))]] = std::uint32_t;
+
+Quad load(const Shadow* values) {
+  Quad quad;
+  std::memcpy(&quad, values, sizeof quad);
+  return quad;
+}
+
+void store(Shadow* values, const Quad& quad) {
+  std::memcpy(values, &quad, sizeof quad);
+}
+
+/// What the casters of a group change in the shadow, gathered as differences along x and then added to the
+/// leaves at once: a caster costs the edges of its shadow only.
+class GroupShadow {
  public:
-  /// All of them must be there.
-  void open(const LeafTable& leaves, const Coord& first, const Coord& last) {
-    first_ = first;
-    size_ = last - first + 1;
+  explicit GroupShadow(const ShadowStencil& stencil, const LeafTable& leaves)
+      : stencil_(stencil), leaves_(leaves) {}
+
+  /// All leaves that it falls in must be there.
+  void apply(const Groups& groups, const Group& group) {
+    frame(group.low + stencil_.low(), group.high + stencil_.high());
+    for (const Coord& caster : groups.added(group)) gather<true>(caster - low_);
+    for (const Coord& caster : groups.removed(group)) gather<false>(caster - low_);
+    for (int y = 0; y < size_.y; ++y) {
+      for (int z = 0; z < size_.z; z += kQuad) sweep(y, z);
+    }
+  }
+
+ private:
+  void frame(const Coord& low, const Coord& high) {
+    low_ = {low.x, low.y, low.z & -kQuad};
+    size_ = high - low_ + 1;
+    // Behind the last quad there is room for the zeros that fill a change up, behind the last x for its end.
+    row_size_ = (size_.z + kQuad - 1) / kQuad * kQuad + kQuad;
+    const auto count = static_cast<std::size_t>((size_.x + 1) * size_.y * row_size_);
+    if (differences_.size() < count) differences_.resize(count, 0);
+
+    first_leaf_ = leaf_of(low);
+    last_leaf_ = leaf_of(high);
     buffers_.clear();
-    for (int x = first.x; x <= last.x; ++x) {
-      for (int y = first.y; y <= last.y; ++y) {
-        for (int z = first.z; z <= last.z; ++z) buffers_.push_back(leaves.buffer(leaves.find({x, y, z})));
+    for (int y = first_leaf_.y; y <= last_leaf_.y; ++y) {
+      for (int z = first_leaf_.z; z <= last_leaf_.z; ++z) {
+        for (int x = first_leaf_.x; x <= last_leaf_.x; ++x) {
+          buffers_.push_back(leaves_.buffer(leaves_.find({x, y, z})));
+        }
       }
     }
   }
 
-  /// The leaf that holds `voxel`; those beyond it along z follow.
-  Shadow* const* leaf(const Coord& voxel) const {
-    const Coord c = leaf_of(voxel) - first_;
-    return buffers_.data() + (c.x * size_.y + c.y) * size_.z + c.z;
+  Shadow* difference_at(const Coord& place) {
+    return differences_.data() + (place.y * (size_.x + 1) + place.x) * row_size_ + place.z;
   }
 
- private:
-  Coord first_{0};
+  /// The leaf that holds a voxel; those beyond it along x follow.
+  Shadow* const* leaf_at(const Coord& voxel) const {
+    const Coord place = leaf_of(voxel) - first_leaf_;
+    const Coord size = last_leaf_ - first_leaf_ + 1;
+    return buffers_.data() + (place.y * size.z + place.z) * size.x + place.x;
+  }
+
+  template <bool is_cast>
+  void gather(const Coord& caster) {
+    for (const ShadowStencil::Change& change : stencil_.changes()) {
+      Shadow* values = difference_at(caster + change.first);
+      for (std::size_t i = 0; i < change.amounts.size(); i += kQuad) {
+        const Quad amount = load(change.amounts.data() + i);
+        store(values + i, is_cast ? load(values + i) + amount : load(values + i) - amount);
+      }
+    }
+  }
+
+  /// Sums the differences in the rows of one y, a quad wide along z, adds the sums to the leaves and forgets
+  /// the differences.
+  void sweep(int y, int z) {
+    constexpr int kNextRow = kLeafEdge * kLeafEdge;
+    const Coord first = low_ + Coord(0, y, z);
+    const std::uint32_t row = place_in_leaf({0, first.y, first.z});
+    Shadow* const* leaf = leaf_at(first);
+    Shadow* differences = difference_at({0, y, z});
+    Quad sum{};
+    for (int x = first.x; x < first.x + size_.x; ++leaf) {
+      const int end = std::min(first.x + size_.x, (x | (kLeafEdge - 1)) + 1);
+      for (Shadow* values = *leaf + row + (x & (kLeafEdge - 1)) * kNextRow; x < end; ++x) {
+        sum += load(differences);
+        store(differences, Quad{});
+        store(values, load(values) + sum);
+        differences += row_size_;
+        values += kNextRow;
+      }
+    }
+    store(differences, Quad{});
+  }
+
+  const ShadowStencil& stencil_;
+  const LeafTable& leaves_;
+  Coord low_{0};  // of the frame
   Coord size_{0};
-  std::vector<Shadow*> buffers_;
+  int row_size_ = 0;
+  std::vector<Shadow> differences_;  // by y, x and z; all 0 between groups
+  Coord first_leaf_{0};
+  Coord last_leaf_{0};
+  std::vector<Shadow*> buffers_;  // of the leaves, by y, z and x
 };
-
-// Voxels that are added to in one instruction. Unsigned, so that a sum past the largest shadow wraps instead
-// of being undefined. The compiler does not find this by itself: it cannot know that shadows and amounts are
-// apart.
-using Four [[gnu::vector_size(16)]] = std::uint32_t;
-
-/// A leaf's edge, each voxel added to or taken from.
-template <bool is_cast>
-void add_edge(Shadow* values, const Shadow* amounts) {
-  for (int i = 0; i < kLeafEdge; i += 4) {
-    Four sum;
-    Four amount;
-    std::memcpy(&sum, values + i, sizeof sum);
-    std::memcpy(&amount, amounts + i, sizeof amount);
-    sum = is_cast ? sum + amount : sum - amount;
-    std::memcpy(values + i, &sum, sizeof sum);
-  }
-}
-
-/// Adds the rows of a level that lie in the leaves of one x, `first` being the first row's place and amounts,
-/// or takes them away. `wide` leaves side by side, known to the compiler where `known_wide` is not 0.
-template <bool is_cast, int known_wide>
-void add_rows(Shadow* const* leaves, std::uint32_t place, const Shadow* const* amounts, int count, int wide) {
-  constexpr std::uint32_t kNextRow = kLeafEdge * kLeafEdge;
-  for (int i = 0; i < count; ++i) {
-    for (int z = 0; z < (known_wide > 0 ? known_wide : wide); ++z) {
-      add_edge<is_cast>(leaves[z] + place, amounts[i] + z * kLeafEdge);
-    }
-    place += kNextRow;
-  }
-}
-
-/// Adds what a caster's shadow has from x = `begin` to before `end`, or takes it away.
-template <bool is_cast>
-void add_shadow(const ShadowStencil& stencil, const Coord& caster, int begin, int end, const Window& window) {
-  const int z = caster.z + stencil.low().z;
-  const int wide = stencil.leaves_wide();
-  for (const ShadowStencil::Level& level : stencil.levels()) {
-    const int y = caster.y + level.y;
-    const int first_x = caster.x + level.first_x;
-    const int end_x = std::min(first_x + level.row_count(), end);
-    const Shadow* const* amounts = level.amounts_at(caster.z & (kLeafEdge - 1));
-    int x = std::max(first_x, begin);
-    while (x < end_x) {
-      const int stop = std::min(end_x, (x | (kLeafEdge - 1)) + 1);
-      Shadow* const* leaves = window.leaf({x, y, z});
-      const std::uint32_t place = place_in_leaf({x, y, 0});
-      wide == 2 ? add_rows<is_cast, 2>(leaves, place, amounts + (x - first_x), stop - x, wide)
-                : add_rows<is_cast, 0>(leaves, place, amounts + (x - first_x), stop - x, wide);
-      x = stop;
-    }
-  }
-}
 
 }  // namespace
 
@@ -193,44 +241,30 @@ void ShadowGrid::touch_all(const Coord& first, const Coord& last) {
   }
 }
 
-void ShadowGrid::cast(std::span<const Coord> casters) {
-  add<true>(casters);
-}
-
-void ShadowGrid::uncast(std::span<const Coord> casters) {
-  add<false>(casters);
-}
-
-template <bool is_cast>
-void ShadowGrid::add(std::span<const Coord> casters) {
-  if (casters.empty()) return;
+void ShadowGrid::change(std::span<const Coord> added, std::span<const Coord> removed) {
+  const CasterList casters{added, removed};
   std::vector<std::uint32_t> leaf_of_caster(casters.size());
   for (std::size_t i = 0; i < casters.size(); ++i) leaf_of_caster[i] = touch(leaf_of(casters[i]));
   const Groups groups = grouped(casters, leaf_of_caster, leaves_.count());
-  const auto first_leaf = [&](const Group& group) { return leaf_of(group.low + stencil_.low()); };
-  const auto last_leaf = [&](const Group& group) {
-    Coord last = leaf_of(group.high + stencil_.high());
-    last.z = leaf_of(group.high + stencil_.low()).z + stencil_.leaves_wide() - 1;
-    return last;
-  };
-  for (const Group& group : groups.groups) touch_all(first_leaf(group), last_leaf(group));
+  for (const Group& group : groups.groups) {
+    touch_all(leaf_of(group.low + stencil_.low()), leaf_of(group.high + stencil_.high()));
+  }
 
-  // Each task has a slab of leaves of its own: no two write to one voxel.
-  const std::vector<int> ends = slab_ends(groups.groups, casters.size());
-  parallel_for(ends.size(), 1, [&](std::size_t first_task, std::size_t last_task) {
-    Window window;
-    for (std::size_t task = first_task; task < last_task; ++task) {
-      const int begin = task == 0 ? std::numeric_limits<int>::min() : ends[task - 1] * kLeafEdge;
-      const int end = task + 1 == ends.size() ? std::numeric_limits<int>::max() : ends[task] * kLeafEdge;
-      for (const Group& group : groups.groups) {
-        if (group.high.x + stencil_.high().x < begin || group.low.x + stencil_.low().x >= end) continue;
-        window.open(leaves_, first_leaf(group), last_leaf(group));
-        for (std::size_t i = group.begin; i < group.end; ++i) {
-          add_shadow<is_cast>(stencil_, groups.casters[i], begin, end, window);
-        }
+  // Columns so far apart that no two of them write to one leaf are done side by side.
+  const std::vector<Column> columns = columns_of(groups.groups);
+  const int apart = (stencil_.high().x - stencil_.low().x + 2 * (kLeafEdge - 1)) / kLeafEdge + 1;
+  for (int phase = 0; phase < apart; ++phase) {
+    std::vector<Column> of_phase;
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(of_phase),
+                 [&](const Column& column) { return (column.x % apart + apart) % apart == phase; });
+    const std::size_t grain = casters.size() < kCastersToShare ? of_phase.size() + 1 : 1;
+    parallel_for(of_phase.size(), grain, [&](std::size_t begin, std::size_t end) {
+      GroupShadow shadow(stencil_, leaves_);
+      for (std::size_t i = begin; i < end; ++i) {
+        for (const Group& group : groups.of(of_phase[i])) shadow.apply(groups, group);
       }
-    }
-  });
+    });
+  }
 }
 
 void ShadowGrid::darken(std::span<const Coord> voxels, Shadow amount) {

@@ -30,12 +30,11 @@ class ShadowGrid {
     return Coord(glm::clamp(index, Vec3(-kMaxIndex), Vec3(kMaxIndex)));
   }
 
-  /// Adds the shadows of casters standing in these voxels; a voxel may be named more than once. O(casters),
-  /// on all threads.
-  void cast(std::span<const Coord> casters);
-
-  /// Takes them away again.
-  void uncast(std::span<const Coord> casters);
+  /// Adds the shadows of the casters in the first voxels and takes those in the second away; a voxel may be
+  /// named more than once. O(casters), on all threads.
+  void change(std::span<const Coord> added, std::span<const Coord> removed);
+  void cast(std::span<const Coord> casters) { change(casters, {}); }
+  void uncast(std::span<const Coord> casters) { change({}, casters); }
 
   /// Adds `amount` to each of these voxels and to no other.
   void darken(std::span<const Coord> voxels, Shadow amount);
@@ -46,6 +45,9 @@ class ShadowGrid {
   }
   Shadow at(Site site) const { return leaves_.at(site); }
   void prefetch(Site site) const { leaves_.prefetch(site); }
+  void prefetch(const Coord& voxel) const {
+    prefetch(leaves_.find(leaf_of(voxel)) * kLeafSize + place_in_leaf(voxel));
+  }
   LeafReader reader() const { return LeafReader(leaves_); }
 
   /// For quick reading: valid as long as the grid.
@@ -62,8 +64,6 @@ class ShadowGrid {
 
   std::uint32_t touch(const Coord& leaf);
   void touch_all(const Coord& first, const Coord& last);
-  template <bool is_cast>
-  void add(std::span<const Coord> casters);
 
   double voxel_size_;
   ShadowStencil stencil_;

@@ -1,6 +1,7 @@
 #include "growth/shadow_stencil.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace ramify::growth {
 namespace {
@@ -21,15 +22,14 @@ Shadow multiplicative_amount(int i, int q, int k) {
   return in_units(-std::log(1.0 - 0.441 * std::pow(6.31, -distance)));
 }
 
-}  // namespace
-
 /// A run of voxels along z, relative to the caster.
-struct ShadowStencil::Row {
+struct Row {
   Coord first{0};
   std::vector<Shadow> amounts;
 };
 
-std::vector<ShadowStencil::Row> ShadowStencil::rows_of(const Penumbra& penumbra) {
+/// By level, and in each by x.
+std::vector<Row> rows_of(const Penumbra& penumbra) {
   const bool is_additive = penumbra.model == ShadowModel::additive;
   const int first_level = is_additive ? 0 : 1;
   const int last_level = is_additive ? penumbra.q_max : 5;
@@ -48,6 +48,8 @@ std::vector<ShadowStencil::Row> ShadowStencil::rows_of(const Penumbra& penumbra)
   return rows;
 }
 
+}  // namespace
+
 ShadowStencil::ShadowStencil(const Penumbra& penumbra) {
   const std::vector<Row> rows = rows_of(penumbra);
   low_ = high_ = rows.front().first;
@@ -57,42 +59,24 @@ ShadowStencil::ShadowStencil(const Penumbra& penumbra) {
     high_ = glm::max(high_, last);
     if (row.first == Coord(0) && row.amounts.size() == 1) own_shadow_ = row.amounts.front();
   }
-  leaves_wide_ = (high_.z - low_.z + kLeafEdge - 1) / kLeafEdge + 1;
 
-  // Rows that differ in neither amounts nor z share their patterns, one for each place.
-  std::vector<const Row*> known;
-  std::vector<std::size_t> pattern_of_row;
-  for (const Row& row : rows) {
-    const auto found = std::find_if(known.begin(), known.end(), [&](const Row* other) {
-      return other->first.z == row.first.z && other->amounts == row.amounts;
-    });
-    pattern_of_row.push_back(static_cast<std::size_t>(found - known.begin()) * kLeafEdge);
-    if (found == known.end()) known.push_back(&row);
-  }
-  const auto width = static_cast<std::size_t>(leaves_wide_ * kLeafEdge);
-  amounts_.assign(known.size() * kLeafEdge * width, 0);
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    for (int place = 0; place < kLeafEdge; ++place) {
-      // The stencil of a caster in this place begins so far into its first leaf.
-      const int begin = (place + low_.z) & (kLeafEdge - 1);
-      const std::size_t pattern = (i * kLeafEdge + static_cast<std::size_t>(place)) * width;
-      const auto offset = pattern + static_cast<std::size_t>(begin + known[i]->first.z - low_.z);
-      std::copy(known[i]->amounts.begin(), known[i]->amounts.end(),
-                amounts_.begin() + static_cast<std::ptrdiff_t>(offset));
-    }
-  }
-
-  for (std::size_t first = 0; first < rows.size();) {
-    std::size_t end = first;
-    while (end < rows.size() && rows[end].first.y == rows[first].first.y) ++end;
-    Level level{rows[first].first.y, rows[first].first.x, {}};
-    for (std::size_t place = 0; place < kLeafEdge; ++place) {
-      for (std::size_t i = first; i < end; ++i) {
-        level.amounts.push_back(amounts_.data() + (pattern_of_row[i] + place) * width);
-      }
-    }
-    levels_.push_back(std::move(level));
-    first = end;
+  const auto add_change = [this](const Coord& first, std::vector<Shadow> amounts) {
+    if (std::all_of(amounts.begin(), amounts.end(), [](Shadow amount) { return amount == 0; })) return;
+    while (amounts.size() % kQuad != 0) amounts.push_back(0);
+    changes_.push_back({first, std::move(amounts)});
+  };
+  std::vector<Shadow> before;  // the amounts of the row before, of the same level
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    std::vector<Shadow> change = row.amounts;
+    for (std::size_t k = 0; k < before.size(); ++k) change[k] -= before[k];
+    add_change(row.first, std::move(change));
+    before = row.amounts;
+    const bool is_last = i + 1 == rows.size() || rows[i + 1].first.y != row.first.y;
+    if (!is_last) continue;
+    std::transform(before.begin(), before.end(), before.begin(), std::negate());
+    add_change(row.first + Coord(1, 0, 0), std::move(before));
+    before.clear();
   }
 }
 

@@ -1,4 +1,4 @@
-// What one caster does to the voxels below it, ready to be added leaf by leaf.
+// What one caster does to the voxels below it, ready to be added.
 #pragma once
 
 #include <cstdint>
@@ -21,50 +21,35 @@ struct Penumbra {
   Vec3 sun_direction = kUp;  // level q is shifted away from it, whole voxels
 };
 
-/// Runs of voxels along z, level by level downwards. A caster's place along a leaf's edge is one of 8: for
-/// each there is a pattern as wide as all the leaves that the stencil falls in, so that adding a row takes no
-/// looking where it begins or ends.
+/// Written as changes along x: what the rows of a level have more, or less, than the row before them. All
+/// rows of a level are often the same, so there are fewer changes than rows.
 class ShadowStencil {
  public:
   explicit ShadowStencil(const Penumbra& penumbra);
-  ShadowStencil(const ShadowStencil&) = delete;
-  ShadowStencil& operator=(const ShadowStencil&) = delete;
 
-  /// Rows of one y, at consecutive x.
-  struct Level {
-    int y = 0;                           // relative to the caster
-    int first_x = 0;                     // likewise
-    std::vector<const Shadow*> amounts;  // of each row, for each place in turn
-
-    int row_count() const { return static_cast<int>(amounts.size()) / kLeafEdge; }
-
-    /// Of each row, leaves_wide() * 8 amounts for a caster at this place along a leaf's edge: the first of
-    /// them is for the voxel where the leaf begins that the stencil begins in.
-    const Shadow* const* amounts_at(int place) const { return amounts.data() + place * row_count(); }
+  /// Amounts along z that are added to all rows of one y from some x on.
+  struct Change {
+    Coord first{0};               // the first amount's voxel, relative to the caster
+    std::vector<Shadow> amounts;  // padded with zeros to a whole number of quads
   };
 
-  const std::vector<Level>& levels() const { return levels_; }
+  const std::vector<Change>& changes() const { return changes_; }
 
   /// Box of what is shaded, relative to the caster.
   const Coord& low() const { return low_; }
   const Coord& high() const { return high_; }
 
-  /// Leaves along z that the stencil of a caster may fall in, whatever its place.
-  int leaves_wide() const { return leaves_wide_; }
-
   /// What a caster adds to its own voxel.
   Shadow own_shadow() const { return own_shadow_; }
 
  private:
-  struct Row;
-  static std::vector<Row> rows_of(const Penumbra& penumbra);
-
-  std::vector<Level> levels_;
-  std::vector<Shadow> amounts_;  // that the levels point to
+  std::vector<Change> changes_;
   Coord low_{0};
   Coord high_{0};
-  int leaves_wide_ = 1;
   Shadow own_shadow_ = 0;
 };
+
+/// Shadows that are added in one instruction.
+inline constexpr int kQuad = 4;
 
 }  // namespace ramify::growth

@@ -17,8 +17,8 @@ std::vector<std::uint32_t> shaded_axes(const Plant& plant, const std::vector<Lig
   if (threshold <= 0.0) return shaded;
   for (std::size_t i = 1; i < plant.axes.size(); ++i) {
     const std::uint32_t first = plant.axes[i].first;
-    if (plant.is_cut(first)) continue;
-    if (sums[first].total() < threshold * sums[first].internodes) shaded.push_back(first);
+    const bool is_shaded = sums[first].total() < threshold * sums[first].internodes;
+    if (is_shaded && !plant.is_cut(first)) shaded.push_back(first);
   }
   return shaded;
 }

@@ -18,8 +18,19 @@ class Builder {
         buds_cast_(is_light_ && world.casters == Casters::buds),
         metamers_cast_(is_light_ && world.casters == Casters::metamers),
         casts_from_start_(world.shadow == ShadowModel::multiplicative),
-        last_node_(static_cast<std::uint32_t>(plant.node_count() - 1)),
         changes_(changes) {}
+
+  void make_room_for(std::size_t shoots) {
+    const std::size_t nodes = traces_.position.size();
+    make_room(plant_.position, nodes);
+    make_room(plant_.parent, nodes);
+    make_room(plant_.axis, nodes);
+    make_room(plant_.founds_axis, nodes);
+    make_room(plant_.birth_step, nodes);
+    make_room(plant_.lost_tips, nodes);
+    make_room(plant_.axes, shoots);
+    make_room(plant_.buds, nodes * traces_.buds_per_node + shoots);
+  }
 
   void build(const Shoot& shoot) {
     const Bud bud = plant_.buds[shoot.bud];
@@ -40,15 +51,6 @@ class Builder {
       if (is_tip && tree_.tip_bud == TipBud::both) add_axillary_buds(node, slot, kNone);
     }
     add_terminal_bud(node, axis, shoot);
-  }
-
-  /// A tip with several axillary buds may have put some of them behind buds of later nodes.
-  void sort_buds() {
-    if (is_sorted_) return;
-    std::erase_if(plant_.buds, [](const Bud& bud) { return bud.is_dead(); });
-    plant_.dead_buds = 0;
-    std::stable_sort(plant_.buds.begin(), plant_.buds.end(),
-                     [](const Bud& a, const Bud& b) { return a.node < b.node; });
   }
 
  private:
@@ -117,8 +119,6 @@ class Builder {
     bud.birth_step = step_;
     if (buds_cast_) changes_.added.push_back(voxel);
     if (spent == kNone) {
-      is_sorted_ = is_sorted_ && (plant_.buds.empty() || bud.node >= last_node_);
-      last_node_ = bud.node;
       plant_.buds.push_back(bud);
     } else {
       plant_.buds[spent] = bud;
@@ -135,19 +135,23 @@ class Builder {
   bool buds_cast_;
   bool metamers_cast_;
   bool casts_from_start_;
-  bool is_sorted_ = true;    // buds by node
-  std::uint32_t last_node_;  // of the bud put behind all others last
   CasterChanges& changes_;
 };
 
 }  // namespace
 
-void build_shoots(Plant& plant, const std::vector<Shoot>& shoots, const Traces& traces,
-                  const Parameters& world, const TreeParameters& tree, ShadowGrid& shadow, int step,
-                  CasterChanges& changes) {
+void build_shoots(Plant& plant, std::span<const Shoot> shoots, const Traces& traces, const Parameters& world,
+                  const TreeParameters& tree, ShadowGrid& shadow, int step, CasterChanges& changes) {
   Builder builder(plant, traces, world, tree, shadow, step, changes);
+  builder.make_room_for(shoots.size());
   for (const Shoot& shoot : shoots) builder.build(shoot);
-  builder.sort_buds();
+}
+
+void sort_buds(Plant& plant) {
+  std::erase_if(plant.buds, [](const Bud& bud) { return bud.is_dead(); });
+  plant.dead_buds = 0;
+  std::stable_sort(plant.buds.begin(), plant.buds.end(),
+                   [](const Bud& a, const Bud& b) { return a.node < b.node; });
 }
 
 void abort_buds(Plant& plant, const Parameters& world, const TreeParameters& tree, const ShadowGrid& shadow,

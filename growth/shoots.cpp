@@ -69,6 +69,13 @@ class Tracer {
         w_optimal_(guides.tree.w_optimal.at(step)),
         turn_max_(guides.tree.turn_max.at(step)) {}
 
+  /// Begins to fetch what trace() will read.
+  void prefetch(const Shoot& shoot) const {
+    const Bud& bud = plant_.buds[shoot.bud];
+    if (guides_.world.environment == Environment::light)
+      seeker_.prefetch(plant_.position[bud.node], Vec3(bud.direction));
+  }
+
   void trace(Shoot& shoot, Traces& traces) const {
     const Bud& bud = plant_.buds[shoot.bud];
     const Axis& axis = plant_.axes[plant_.axis[bud.node]];
@@ -161,7 +168,6 @@ std::vector<Shoot> plan_shoots(const Plant& plant, const std::vector<double>& vi
   const double cap = tree.max_metamers.at(step);
   const double length = tree.internode_length.at(step);
   std::uint32_t next_axis = plant.axes_founded;
-  std::size_t next_slot = 0;
   std::vector<Shoot> shoots;
   for (std::uint32_t i = 0; i < vigour.size(); ++i) {
     const double capped = capped_vigour(vigour[i], cap);
@@ -172,26 +178,27 @@ std::vector<Shoot> plan_shoots(const Plant& plant, const std::vector<double>& vi
     shoot.planned = static_cast<std::uint32_t>(count);
     shoot.axis_id = plant.buds[i].is_terminal ? plant.axes[plant.axis[plant.buds[i].node]].id : next_axis++;
     shoot.metamer_length = length * capped / count;
-    shoot.first = next_slot;
-    next_slot += shoot.planned + 1;
     shoots.push_back(shoot);
   }
   return shoots;
 }
 
-Traces trace_shoots(std::vector<Shoot>& shoots, const Plant& plant, const Guides& guides, int step) {
+Traces trace_shoots(std::span<Shoot> shoots, const Plant& plant, const Guides& guides, int step) {
+  std::size_t slots = 0;
+  for (Shoot& shoot : shoots) {
+    shoot.first = slots;
+    slots += shoot.planned + 1;
+  }
   Traces traces;
-  if (shoots.empty()) return traces;
-  const std::size_t slots = shoots.back().first + shoots.back().planned + 1;
   traces.buds_per_node = buds_per_node(guides.tree);
   traces.position.resize(slots);
   traces.voxel.resize(slots);
   traces.axillary.resize(slots * traces.buds_per_node);
   const Tracer tracer(plant, guides, step);
+  // What the shoots to come will read is fetched ahead, for it lies anywhere.
   parallel_for(shoots.size(), kShootsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      // Where the shoots after this one will look for light: reading ahead hides the wait.
-      if (i + kReadAhead < end) guides.light.grid().prefetch(plant.buds[shoots[i + kReadAhead].bud].site);
+      if (i + kReadAhead < end) tracer.prefetch(shoots[i + kReadAhead]);
       tracer.trace(shoots[i], traces);
     }
   });

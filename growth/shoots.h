@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "growth/barriers.h"
@@ -10,19 +11,19 @@
 
 namespace ramify::growth {
 
-/// What one bud makes, and where in `Traces` it is traced.
+/// What one bud makes, and where in `Traces` that is.
 struct Shoot {
   std::uint32_t bud = 0;
   std::uint32_t planned = 0;  // metamers
   std::uint32_t made = 0;     // fewer where something is in the way
   std::uint32_t axis_id = 0;  // of the axis it continues or founds
   double metamer_length = 0.0;
-  std::size_t first = 0;      // its start's slot; those of its metamers follow
+  std::size_t first = 0;      // its start's slot, once traced; those of its metamers follow
   Vec3f end_direction{0.0f};  // of its last metamer
   Vec3f end_reference{0.0f};  // perpendicular to it
 };
 
-/// The nodes of all shoots, a slot each: first the node a shoot starts from, then the upper ends of its
+/// The nodes of some shoots, a slot each: first the node a shoot starts from, then the upper ends of its
 /// metamers.
 struct Traces {
   std::size_t buds_per_node = 1;
@@ -50,6 +51,6 @@ struct Guides {
 
 /// Follows each shoot to its end: P09 4.3's weighted sum of default, optimal and tropism direction.
 /// O(metamers made), on all threads.
-Traces trace_shoots(std::vector<Shoot>& shoots, const Plant& plant, const Guides& guides, int step);
+Traces trace_shoots(std::span<Shoot> shoots, const Plant& plant, const Guides& guides, int step);
 
 }  // namespace ramify::growth

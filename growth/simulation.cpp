@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "common/base/parallel.h"
 #include "growth/allocation.h"
 #include "growth/cutting.h"
 #include "growth/environment_light.h"
 #include "growth/environment_space.h"
+#include "growth/phyllotaxis.h"
 #include "growth/pruning.h"
 #include "growth/shedding.h"
 #include "growth/shoots.h"
@@ -16,6 +16,10 @@ namespace {
 
 // Holes are closed when they are this share of an array: copying often costs more than skipping them.
 constexpr double kHoleShare = 0.1;
+
+// Shoots that are traced before they are built: so many that all threads have enough to do, so few that their
+// nodes stay in the cache in between. No shoot sees another of its step, whatever their number.
+constexpr std::size_t kShootsAtOnce = 4096;
 
 Penumbra penumbra_of(const Parameters& world) {
   return {.model = world.shadow,
@@ -114,11 +118,8 @@ bool Simulation::advance() {
   for (GrowingTree& tree : trees_) extend(tree, step);
   stopwatch_.lap("shoots");
 
-  // What is shed is known without the shadows of what has grown: the two go side by side.
-  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) i == 0 ? shadow_.cast(changes_.added) : lose(shaded, step);
-  });
-  shadow_.uncast(changes_.removed);
+  lose(shaded, step);
+  shadow_.change(changes_.added, changes_.removed);
   changes_.added.clear();
   changes_.removed.clear();
   stopwatch_.lap("shadow and shedding");
@@ -142,9 +143,13 @@ void Simulation::extend(GrowingTree& tree, int step) {
   Plant& plant = tree.plant;
   const Guides guides{world_, tree.place, tree.place.seed, barriers_, field_, tree.space};
   std::vector<Shoot> shoots = plan_shoots(plant, tree.vigour, tree.place, step);
-  const Traces traces = trace_shoots(shoots, plant, guides, step);
   const std::size_t first = plant.node_count();
-  build_shoots(plant, shoots, traces, world_, tree.place, shadow_, step, changes_);
+  for (std::size_t done = 0; done < shoots.size(); done += kShootsAtOnce) {
+    const auto batch = std::span(shoots).subspan(done, std::min(kShootsAtOnce, shoots.size() - done));
+    const Traces traces = trace_shoots(batch, plant, guides, step);
+    build_shoots(plant, batch, traces, world_, tree.place, shadow_, step, changes_);
+  }
+  if (tree.place.tip_bud == TipBud::terminal && buds_per_node(tree.place) > 1) sort_buds(plant);
   if (tree.history) tree.history->record(plant, first);
   if (markers_) markers_->occupy(std::span(plant.position).subspan(first), occupied_radius(tree.place, step));
 }

@@ -44,8 +44,8 @@ bool is_near(double a, double b) {
 TEST_CASE("light sums: each node has what its buds and all beyond them get") {
   const Fork fork;
   CHECK(fork.sums[0].total() == 1.75);
-  CHECK(fork.sums[1].main == 0.5);
-  CHECK(fork.sums[1].lateral == 1.25);
+  CHECK(fork.sums[1].light[kMain] == 0.5);
+  CHECK(fork.sums[1].light[kLateral] == 1.25);
   CHECK(fork.sums[0].buds == 3);
   CHECK(fork.sums[2].buds == 1);
   CHECK(fork.sums[1].internodes == 2);
