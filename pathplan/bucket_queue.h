@@ -37,6 +37,8 @@ class BucketQueue {
     heads_.assign(std::bit_ceil(static_cast<std::size_t>(heaviest * buckets_per_cost_) + 3), kNone);
   }
 
+  /// In costs.
+  double bucket_width() const { return 1.0 / buckets_per_cost_; }
   bool is_empty() const { return size_ == 0; }
 
   void push(double cost, std::uint32_t node) {
