@@ -21,6 +21,9 @@ namespace {
 // Volumes are counted to about 0.3 %: how much is left of one that is nearly full is not known.
 constexpr double kLeastFree = 0.01;
 
+// A lattice's edges are as long as its spacing but for rounding, which must not make them too long.
+constexpr double kLengthSlack = 1e-9;
+
 /// Cubic metres that nodes may fill.
 double free_volume(const Volume& volume, double obstructed) {
   const double all = volume_of(volume);
@@ -85,7 +88,8 @@ class Planner {
 
   void make_edges() {
     const Level& row = pattern_.row;
-    const EdgeRules rules(domain_, graph_.nodes, row.max_edge * spacing_, subvolumes_);
+    const double max_length = row.max_edge * spacing_ * (1.0 + kLengthSlack);
+    const EdgeRules rules(domain_, graph_.nodes, max_length, subvolumes_);
     graph_.edges = row.edges == EdgeKind::yao
                        ? yao_edges(graph_.nodes, rules, row.sectors, spacing_, hooks_.stop)
                        : threshold_edges(graph_.nodes, rules, hooks_.stop);

@@ -13,6 +13,47 @@ namespace {
 // In mean weights. Narrower buckets are mostly empty; in wider ones more nodes are looked at again.
 constexpr double kBucketWidth = 0.12;
 
+// In buckets as wide as several light edges a node is looked at again and again: order within them is worth
+// its price then.
+constexpr double kRoughUpTo = 4.0;
+
+// Nodes that are asked for the weight of light edges.
+constexpr std::size_t kAsked = 1000;
+
+/// What the lightest edge of a node weighs: the harmonic mean over some nodes, so that places where all edges
+/// are light count.
+double light_weight(const Graph& graph) {
+  double sum = 0.0;  // of inverses
+  std::size_t count = 0;
+  for (std::size_t node = 0; node < graph.nodes.size(); node += 1 + graph.nodes.size() / kAsked) {
+    const std::span<const Link> links = graph.links_of(static_cast<std::uint32_t>(node));
+    if (links.empty()) continue;
+    const auto is_lighter = [](const Link& a, const Link& b) { return a.weight < b.weight; };
+    sum += 1.0 / std::min_element(links.begin(), links.end(), is_lighter)->weight;
+    ++count;
+  }
+  return count > 0 ? static_cast<double>(count) / sum : 0.0;
+}
+
+template <QueueOrder order>
+void search(const Graph& graph, BucketQueue<order> queue, std::span<const std::uint32_t> sources,
+            const std::stop_token& stop, ShortestPaths& paths) {
+  for (const std::uint32_t source : sources) queue.push(0.0, source);
+  while (!queue.is_empty() && !stop.stop_requested()) {
+    const auto [cost_here, node] = queue.pop();
+    if (cost_here > paths.cost[node]) continue;  // a better way was found since
+    for (const Link& link : graph.links_of(node)) {
+      double cost = cost_here + link.weight;
+      // A weight too small to count still counts, so that parents come before their children.
+      if (cost == cost_here) cost = std::nextafter(cost, kUnreached);
+      if (cost >= paths.cost[link.node]) continue;
+      paths.cost[link.node] = cost;
+      paths.parent[link.node] = node;
+      queue.push(cost, link.node);
+    }
+  }
+}
+
 }  // namespace
 
 ShortestPaths unsearched_paths(std::size_t nodes, std::span<const std::uint32_t> sources) {
@@ -29,21 +70,11 @@ ShortestPaths shortest_paths(const Graph& graph, std::span<const std::uint32_t> 
   const double mean = std::accumulate(graph.weights.begin(), graph.weights.end(), 0.0) /
                       static_cast<double>(graph.weights.size());
   const double heaviest = *std::max_element(graph.weights.begin(), graph.weights.end());
-  BucketQueue<QueueOrder::rough> queue(std::max(kBucketWidth * mean, heaviest / kBucketsMax), heaviest);
-  for (const std::uint32_t source : sources) queue.push(0.0, source);
-
-  while (!queue.is_empty() && !stop.stop_requested()) {
-    const auto [cost_here, node] = queue.pop();
-    if (cost_here > paths.cost[node]) continue;  // a better way was found since
-    for (const Link& link : graph.links_of(node)) {
-      double cost = cost_here + link.weight;
-      // A weight too small to count still counts, so that parents come before their children.
-      if (cost == cost_here) cost = std::nextafter(cost, kUnreached);
-      if (cost >= paths.cost[link.node]) continue;
-      paths.cost[link.node] = cost;
-      paths.parent[link.node] = node;
-      queue.push(cost, link.node);
-    }
+  const double width = std::max(kBucketWidth * mean, heaviest / kBucketsMax);
+  if (width <= kRoughUpTo * light_weight(graph)) {
+    search(graph, BucketQueue<QueueOrder::rough>(width, heaviest), sources, stop, paths);
+  } else {
+    search(graph, BucketQueue<QueueOrder::exact>(width, heaviest), sources, stop, paths);
   }
   return paths;
 }

@@ -383,7 +383,7 @@ TEST_CASE("pathplan: guiding vectors have a layer, and an edge one cost each way
       REQUIRE((u == there && v == back));
       const Vec3 way = graph.points[v] - graph.points[u];
       const double cosine = glm::dot(guiding.vectors[u], glm::normalize(way));
-      REQUIRE(std::abs(graph.values[i] - glm::length(way) * (1.0 - cosine + level.guiding.epsilon)) < 1e-9);
+      REQUIRE(std::abs(graph.values[i] - glm::length(way) * (1.0 - cosine + level.guiding.epsilon)) < 1e-6);
     }
   }
 }

@@ -335,6 +335,11 @@ TEST_CASE("levels: no node is in an obstacle and no internode goes through one")
       parameters.obstacles = kBallAndWall.obstacles();
       const RunResult result = run_with_layers(parameters);
       CHECK(met(result.skeleton) == 0);
+      const auto& graph = layer<LineLayer>(result, "graph");
+      for (const Vec3& node : graph.points) REQUIRE_FALSE(kBallAndWall.meets(node, node));
+      for (const auto& [a, b] : graph.lines) {
+        REQUIRE_FALSE(kBallAndWall.meets(graph.points[a], graph.points[b]));
+      }
       // Level 1 has all it wants, in the room that is left.
       CHECK(reported(result, "graph", "nodes") == 1500.0);
       const auto& levels = layer<PointLayer>(result, "endpoints").values;
@@ -467,6 +472,40 @@ TEST_CASE("levels: manual endpoints are where the config says") {
   // On a lattice, too, the nearest node stands for each.
   parameters.levels[0].layout = Layout::lattice;
   CHECK(glm::distance(tips()[0], {1.5, 4.0, 0.0}) < 0.25);
+}
+
+TEST_CASE("levels: on a lattice edges of one spacing join all neighbours") {
+  Parameters parameters = tree_of(1);
+  Level& level = parameters.levels.front();
+  level.layout = Layout::lattice;
+  level.max_edge = 1.0;
+  level.sectors = 6;
+  for (const Place& place : places()) {
+    level.volume = place.volume;
+    parameters.root = place.root;
+    parameters.unreachable = Unreachable::warn;  // corners of a lattice may hang on a diagonal alone
+    for (const EdgeKind kind : {EdgeKind::yao, EdgeKind::threshold}) {
+      INFO(place.name << ", kind " << static_cast<int>(kind));
+      level.edges = kind;
+      const auto result = run_with_layers(parameters);
+      const auto& graph = layer<LineLayer>(result, "graph");
+      double spacing = 1e9;
+      for (const Vec3& node : graph.points) {
+        if (node != graph.points[0]) spacing = std::min(spacing, glm::distance(node, graph.points[0]));
+      }
+      const Solid solid(level.volume);
+      std::size_t neighbours = 0;
+      for (std::size_t i = 0; i < graph.points.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          const Vec3 d = graph.points[i] - graph.points[j];
+          if (glm::length(d) > 1.01 * spacing) continue;
+          const auto is_inside = [&](double share) { return solid.contains(graph.points[j] + share * d); };
+          neighbours += is_inside(0.25) && is_inside(0.5) && is_inside(0.75) ? 1 : 0;
+        }
+      }
+      CHECK(graph.lines.size() == neighbours);
+    }
+  }
 }
 
 TEST_CASE("levels: the first k are those of a run of k levels") {

@@ -2,6 +2,7 @@
 
 #include <queue>
 
+#include "pathplan/threshold_graph.h"
 #include "tests/catch.h"
 #include "tests/pathplan/graphs.h"
 
@@ -75,6 +76,30 @@ TEST_CASE("paths: costs are those of an independent search, whatever the weights
       }
     }
   }
+}
+
+TEST_CASE("paths: weights that differ by many powers of ten make no search slow") {
+  // A few very long edges on the hull are heavier than all others by far; or light ones are rare, or all in
+  // one place.
+  const Place place = places()[0];
+  const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 12'000});
+  const OpenDomain open(place.volume);
+  for (const double max_edge : {6.0, 100.0}) {
+    const EdgeRules rules(open.domain, nodes.position, max_edge * nodes.spacing);
+    Graph graph;
+    graph.nodes = nodes.position;
+    graph.edges = max_edge > 10.0 ? yao_edges(nodes.position, rules, 8, nodes.spacing)
+                                  : threshold_edges(nodes.position, rules);
+    assign_random_weights(graph, {.exponent = 8.0, .low = 0.2, .high = 1.0});
+    link_nodes(graph);
+    CHECK(shortest_paths(graph, kRoot).cost == costs_by_heap(graph));
+  }
+  Graph graph = graph_in(place, 12'000, {});
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    if (glm::length(graph.nodes[graph.edges[i][0]]) < 1.2) graph.weights[i] *= 0.001f;
+  }
+  link_nodes(graph);
+  CHECK(shortest_paths(graph, kRoot).cost == costs_by_heap(graph));
 }
 
 TEST_CASE(
