@@ -322,10 +322,6 @@ Table world_fields() {
   });
 }
 
-void append(Table& table, const Table& more) {
-  table.insert(table.end(), more.begin(), more.end());
-}
-
 }  // namespace
 
 const Table& Tropism::fields() {
@@ -390,43 +386,28 @@ const Table& PruneEvent::fields() {
 }
 
 const Table& TreeParameters::fields() {
-  static const Table table = [] {
-    Table rows = sight_fields();
-    append(rows, resource_fields());
-    append(rows, shoot_fields());
-    append(rows, shedding_fields());
-    return rows;
-  }();
+  static const Table table = joined({sight_fields(), resource_fields(), shoot_fields(), shedding_fields()});
   return table;
 }
 
 const Table& TreePlace::fields() {
-  static const Table table = [] {
-    Table rows = make_table<TreePlace>({
-        {"position",
-         &TreePlace::position,
-         {.min = -1e4, .max = 1e4, .unit = "metres", .help = "of its root"}},
-        {"seed", &TreePlace::seed, {.help = "of its own; 0: the config's, plus 1 for each tree before it"}},
-    });
-    append(rows, rows_of_base<TreePlace, TreeParameters>());
-    return rows;
-  }();
+  static const Table own = make_table<TreePlace>({
+      {"position", &TreePlace::position, {.min = -1e4, .max = 1e4, .unit = "metres", .help = "of its root"}},
+      {"seed", &TreePlace::seed, {.help = "of its own; 0: the config's, plus 1 for each tree before it"}},
+  });
+  static const Table table = joined({own, rows_of_base<TreePlace, TreeParameters>()});
   return table;
 }
 
 const Table& Parameters::fields() {
-  static const Table table = [] {
-    Table rows = make_table<P>({
-        {"seed", &P::seed, {.help = "the same seed makes the same tree", .is_top_level = true}},
-        {"steps",
-         &P::steps,
-         {.min = 1, .max = 10'000, .help = "steps of growth, about years", .is_top_level = true}},
-    });
-    append(rows, light_fields());
-    append(rows, rows_of_base<Parameters, TreeParameters>());
-    append(rows, world_fields());
-    return rows;
-  }();
+  static const Table own = make_table<P>({
+      {"seed", &P::seed, {.help = "the same seed makes the same tree", .is_top_level = true}},
+      {"steps",
+       &P::steps,
+       {.min = 1, .max = 10'000, .help = "steps of growth, about years", .is_top_level = true}},
+  });
+  static const Table table =
+      joined({own, light_fields(), rows_of_base<Parameters, TreeParameters>(), world_fields()});
   return table;
 }
 

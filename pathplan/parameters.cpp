@@ -170,12 +170,6 @@ Table path_fields() {
   });
 }
 
-Table joined(std::initializer_list<Table> tables) {
-  Table all;
-  for (const Table& table : tables) all.insert(all.end(), table.begin(), table.end());
-  return all;
-}
-
 }  // namespace
 
 const Table& TurnChance::fields() {

@@ -30,6 +30,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+Table joined(std::initializer_list<Table> tables) {
+  Table all;
+  for (const Table& table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
 std::string allowed_values(const FieldRow& row) {
   switch (row.kind) {
     case FieldKind::number:

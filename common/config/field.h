@@ -181,6 +181,9 @@ Table make_table(std::initializer_list<Field<P>> rows) {
   return Table(rows.begin(), rows.end());
 }
 
+/// The rows of several tables, one after the other.
+Table joined(std::initializer_list<Table> tables);
+
 /// The rows of Base for a table of P, which is derived from it.
 template <class P, class Base>
 Table rows_of_base() {
