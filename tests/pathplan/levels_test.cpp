@@ -459,6 +459,41 @@ TEST_CASE("levels: around all, the endpoints of every level before get a graph")
   for (const Tip& tip : tree.tips[1]) CHECK(children[tip.node] == 3);
 }
 
+TEST_CASE("levels: endpoints of a later shell are near its curved face") {
+  Parameters parameters = tree_of(2);
+  parameters.levels[1].endpoints = EndpointKind::shell;
+  parameters.levels[1].shell_thickness = 0.25;
+  const PlannedTree tree = planned(parameters);
+  for (const Tip& tip : tree.tips[1]) {
+    const double from_base = glm::distance(tree.skeleton.position[tip.node], tip.origin);
+    REQUIRE(from_base >= subgraph_radius(parameters.levels[1], 2) - 0.25 - 1e-9);
+  }
+}
+
+TEST_CASE("levels: no two graphs are alike, and the seed changes those of every level") {
+  // A lattice and endpoints by hand: level 1 is the same for every seed.
+  Parameters parameters = tree_of(2);
+  parameters.levels[0].layout = Layout::lattice;
+  parameters.levels[0].endpoints = EndpointKind::manual;
+  parameters.levels[0].points = {{{1.5, 4.0, 0.0}}, {{-1.5, 3.5, 0.3}}};
+  const auto reaches_of = [&](std::uint64_t seed) {
+    parameters.seed = seed;
+    const PlannedTree tree = planned(parameters);
+    std::vector<double> reaches;
+    for (const Tip& tip : tree.tips[1]) {
+      reaches.push_back(glm::distance(tree.skeleton.position[tip.node], tip.origin));
+    }
+    return reaches;
+  };
+  const std::vector<double> once = reaches_of(1);
+  const std::vector<double> again = reaches_of(2);
+  REQUIRE(once.size() == 10);
+  for (std::size_t i = 0; i < 5; ++i) {
+    CHECK(std::abs(once[i] - once[i + 5]) > 1e-6);
+    CHECK(std::abs(once[i] - again[i]) > 1e-6);
+  }
+}
+
 TEST_CASE("levels: manual endpoints are where the config says") {
   Parameters parameters = tree_of(2);
   parameters.levels[0].endpoints = EndpointKind::manual;
