@@ -205,7 +205,9 @@ class Reader {
     fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
   }
 
+  /// An array is the whole list; a table, such as [pathplan.levels.2], changes the items it names.
   void read_list(const FieldRow& row, void* list, const toml::node& node, const std::string& path) {
+    if (const toml::table* named = node.as_table()) return change_items(row, list, *named, path);
     const toml::array* items = node.as_array();
     if (!items) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
     row.clear(list);
@@ -215,6 +217,17 @@ class Reader {
       const toml::table* values = item.as_table();
       if (!values) fail(item, item_path, fmt::format("{} (a table)", type_name(item)));
       read_table(row.child(), row.append(list), *values, item_path);
+    }
+  }
+
+  void change_items(const FieldRow& row, void* list, const toml::table& named, const std::string& path) {
+    for (const auto& [key, value] : named) {
+      std::string item_path = path;
+      void* item = listed_item(row, list, key.str(), item_path, value);
+      const toml::table* values = value.as_table();
+      if (!values) fail(value, item_path, fmt::format("{} (a table)", type_name(value)));
+      read_table(row.child(), item, *values, item_path);
+      origins_[item_path] = where(value);
     }
   }
 

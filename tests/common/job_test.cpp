@@ -167,6 +167,37 @@ TEST_CASE("job: each file of a chain of bases names files from its own folder, -
                                  folder.file("crowns/base.csv") + ": point 2: radius -1 is less than 0");
 }
 
+TEST_CASE("job: a table by an item's number changes that item of the base's list and no other") {
+  const Folder folder;
+  write(folder, "base.toml",
+        "engine = \"pathplan\"\n[[pathplan.levels]]\nb = 30\n[[pathplan.levels]]\nnodes = 100\nb = 8\n"
+        "[[pathplan.levels]]\nb = 4\n");
+  const auto levels_of = [&](const std::string& text) {
+    const Job job = load_job(registry(), write(folder, "own.toml", "base = \"base.toml\"\n" + text));
+    return static_cast<const pathplan::Parameters*>(job.parameters.get())->levels;
+  };
+  const std::vector<pathplan::Level> levels = levels_of("[pathplan.levels.2]\nb = 6\nguiding.d = 3\n");
+  REQUIRE(levels.size() == 3);
+  CHECK(levels[0].b == 30);
+  CHECK(levels[1].b == 6);
+  CHECK(levels[1].nodes == 100);
+  CHECK(levels[1].guiding.d.at(0.0) == 3.0);
+  CHECK(levels[2].b == 4);
+  CHECK(levels[2].guiding.d.at(0.0) == 10.0);
+
+  const auto problem = [&](const std::string& text) {
+    const std::string file = write(folder, "own.toml", "base = \"base.toml\"\n" + text);
+    return error_of(file).substr(file.size());
+  };
+  CHECK(problem("[pathplan.levels.4]\nb = 6\n") ==
+        ":2: pathplan.levels.4: '4' is no item of pathplan.levels (1 to 3)");
+  CHECK(problem("[pathplan.levels]\nb = 6\n") ==
+        ":3: pathplan.levels.b: 'b' is no item of pathplan.levels (1 to 3)");
+  CHECK(problem("[pathplan.levels]\n1 = 6\n") == ":3: pathplan.levels.1: a whole number (a table)");
+  CHECK(problem("[pathplan.levels.2]\nb = 0\n") ==
+        ":3: pathplan.levels.2.b: 0 is out of range (a whole number, 1 to 1000000)");
+}
+
 TEST_CASE("job: the complete config reads back to the same config") {
   const EngineRegistry engines = registry();
   for (const AnyEngine& engine : engines.engines()) {
