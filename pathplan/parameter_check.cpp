@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "common/base/errors.h"
 #include "pathplan/poisson_disc.h"
@@ -11,6 +12,12 @@
 
 namespace ramify::pathplan {
 namespace {
+
+// Of the threshold graphs of a level; some gigabytes.
+constexpr double kEdgesMax = 50e6;
+
+// Nodes are 0.75 (V/K)^(1/3) apart; so many of those within a spacing count to a node, each edge once.
+constexpr double kEdgesPerNode = 0.75 * 0.75 * 0.75 * std::numbers::pi * 2.0 / 3.0;
 
 void require_direction(const Vec3& direction, const std::string& key) {
   if (glm::length(direction) >= 1e-6) return;
@@ -85,6 +92,16 @@ class LevelCheck {
     cubic_metres_ = volume_of(volume);
   }
 
+  /// Of a threshold graph there are the more the farther they reach; a Yao graph's are bounded.
+  void check_edges(double nodes) const {
+    if (level().edges != EdgeKind::threshold) return;
+    const double edges = nodes * kEdgesPerNode * std::pow(level().max_edge, 3.0);
+    if (edges <= kEdgesMax) return;
+    fail("max_edge", fmt::format("{} spacings make about {:.0f} million edges with edges = \"threshold\" (at "
+                                 "most {:.0f} million)",
+                                 level().max_edge, edges / 1e6, kEdgesMax / 1e6));
+  }
+
   /// `graphs_` are those of the level, if every endpoint gets one.
   void check_sizes() {
     const double nodes = wanted_nodes({.nodes = level().nodes, .spacing = level().spacing}, cubic_metres_);
@@ -92,10 +109,11 @@ class LevelCheck {
     if (nodes * graphs_ > kNodesMax) {
       fail(key, number_ == 1 ? fmt::format("{} m makes {} nodes in this volume (at most {})", level().spacing,
                                            nodes, kNodesMax)
-                             : fmt::format("{} graphs of {} nodes make {:.3g} (at most {:.3g}; each endpoint "
+                             : fmt::format("{} graphs of {} nodes make {:.0f} (at most {:.0f}; each endpoint "
                                            "of the level before gets a graph)",
                                            graphs_, nodes, nodes * graphs_, kNodesMax));
     }
+    check_edges(nodes * graphs_);
     double b = level().endpoints == EndpointKind::manual
                    ? static_cast<double>(level().points.size())
                    : std::round(level().b * (number_ == 1 ? 1.0 : most_b_));

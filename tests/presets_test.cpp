@@ -61,9 +61,8 @@ TEST_CASE("presets: each opens with what it shows, its source and its time on 2 
 }
 
 TEST_CASE(
-    "presets: each makes a sound tree and mesh, without a warning but where endpoints are cut off on "
-    "purpose, "
-    "and its complete config the same tree") {
+    "presets: each makes a sound tree and mesh, warns only on purpose, and its complete config makes the "
+    "same") {
   const EngineRegistry registry = engines();
   for (const Preset& preset : presets()) {
     INFO(preset.name);

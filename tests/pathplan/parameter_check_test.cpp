@@ -177,6 +177,20 @@ TEST_CASE("pathplan parameters: later levels are looked into with their own keys
         "levels.2.b: 2000 endpoints of 2000 nodes (at most 1999: the root is none)");
 }
 
+TEST_CASE("pathplan parameters: the edges of threshold graphs have a limit") {
+  CHECK(problem_after([](Parameters&, Level& l) {
+          l.edges = EdgeKind::threshold;
+          l.max_edge = 20.0;
+        }) ==
+        "levels.1.max_edge: 20 spacings make about 212 million edges with edges = \"threshold\" (at most 50 "
+        "million)");
+  CHECK(problem_after([](Parameters&, Level& l) {
+          l.edges = EdgeKind::threshold;
+          l.max_edge = 12.0;
+        }).empty());
+  CHECK(problem_after([](Parameters&, Level& l) { l.max_edge = 100.0; }).empty());
+}
+
 TEST_CASE("pathplan parameters: all graphs of a level together have a limit") {
   const auto problem_of = [](Around around, int nodes) {
     return problem_after([&](Parameters& p, Level& l) {
@@ -191,21 +205,24 @@ TEST_CASE("pathplan parameters: all graphs of a level together have a limit") {
   };
   // 100 * 50 graphs; around all 100 more.
   CHECK(problem_of(Around::last, 2000).empty());
-  CHECK(problem_of(Around::last, 2001) ==
-        "levels.3.nodes: 5000 graphs of 2001 nodes make 1e+07 (at most 1e+07; each endpoint of the level "
-        "before gets a graph)");
+  CHECK(
+      problem_of(Around::last, 2001) ==
+      "levels.3.nodes: 5000 graphs of 2001 nodes make 10005000 (at most 10000000; each endpoint of the level "
+      "before gets a graph)");
   CHECK(problem_of(Around::all, 1960).empty());
-  CHECK(problem_of(Around::all, 2000) ==
-        "levels.3.nodes: 5100 graphs of 2000 nodes make 1.02e+07 (at most 1e+07; each endpoint of the level "
-        "before gets a graph)");
+  CHECK(
+      problem_of(Around::all, 2000) ==
+      "levels.3.nodes: 5100 graphs of 2000 nodes make 10200000 (at most 10000000; each endpoint of the level "
+      "before gets a graph)");
   // Stages are endpoints, too.
-  CHECK(problem_after([](Parameters& p, Level& l) {
-          l.nodes = 4000;
-          p.levels.push_back(Level(l));
-          p.levels[0].stages = {{.b = 2500, .hops = 2}};
-        }) ==
-        "levels.2.nodes: 2900 graphs of 4000 nodes make 1.16e+07 (at most 1e+07; each endpoint of the level "
-        "before gets a graph)");
+  CHECK(
+      problem_after([](Parameters& p, Level& l) {
+        l.nodes = 4000;
+        p.levels.push_back(Level(l));
+        p.levels[0].stages = {{.b = 2500, .hops = 2}};
+      }) ==
+      "levels.2.nodes: 2900 graphs of 4000 nodes make 11600000 (at most 10000000; each endpoint of the level "
+      "before gets a graph)");
 }
 
 TEST_CASE("pathplan parameters: endpoints of stages and by the light's factor count") {
