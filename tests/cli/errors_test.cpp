@@ -1,5 +1,6 @@
 // What the program says when something is wrong: one line, the right exit code, no file.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -112,6 +113,33 @@ TEST_CASE("errors: a full disk leaves the old file and no other") {
   check_failure(outcome, 1, "a.glb: cannot write: File too large\n");
   CHECK(read_file(folder.file("a.glb")) == "old");
   CHECK(folder.count() == 1);
+}
+
+TEST_CASE("errors: endpoints that no path leads to end the run, or are left out with a warning") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  const std::string command = "generate xm12-fig22-sparse -o a.csv --set pathplan.unreachable=";
+  const Outcome failed = run_program(command + "error", where);
+  CHECK(failed.code == 1);
+  CHECK(failed.err.find("of 1500 endpoints cannot be reached from the root (raise nodes or max_edge, ") !=
+        std::string::npos);
+  CHECK(std::count(failed.err.begin(), failed.err.end(), '\n') == 1);
+  CHECK(folder.count() == 0);
+  const Outcome warned = run_program(command + "warn", where);
+  CHECK(warned.code == 0);
+  CHECK(warned.err.find("ramify: warning: ") == 0);
+  CHECK(warned.err.find("of 1500 endpoints cannot be reached from the root: they are left out\n") !=
+        std::string::npos);
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("errors: a planned tree's config is told with its level, value and what is allowed") {
+  check_failure(run_program("generate xm12-fig7 --set pathplan.levels.2.sectors=7"), 2,
+                "--set: pathplan.levels.2.sectors: 7 (6, 8 or 14)\n");
+  check_failure(run_program("generate xm12-fig7 --set pathplan.levels.9.b=7"), 2,
+                "--set: pathplan.levels.9: '9' is no item of pathplan.levels (1 to 4)\n");
+  check_failure(run_program("generate xm12-fig7 --set pathplan.light.b_low=2"), 2,
+                "--set: pathplan.light.b_low: 2 is more than b_high, 1 (at most as much)\n");
 }
 
 TEST_CASE("errors: a full disk behind stdout is a failure") {
