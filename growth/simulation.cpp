@@ -81,6 +81,8 @@ void Simulation::sense() {
   stopwatch_.lap("environment");
   for (GrowingTree& tree : trees_) {
     sum_light(tree.plant, tree.light, tree.sums);
+    tree.resource = root_vigour(tree.sums, tree.place, step);
+    tree.shaded = shaded_axes(tree.plant, tree.sums, tree.place, step);
     switch (tree.place.allocation) {
       case Allocation::priority:
         allocate_priority(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
@@ -96,7 +98,7 @@ void Simulation::sense() {
 bool Simulation::has_room() const {
   // A metamer takes a vigour of 1, so there cannot be more of them than there is resource.
   double most = static_cast<double>(internode_count());
-  for (const GrowingTree& tree : trees_) most += root_vigour(tree.sums, tree.place, step_ + 1);
+  for (const GrowingTree& tree : trees_) most += tree.resource;
   if (most <= 0.99 * world_.max_internodes) return true;
   double planned = static_cast<double>(internode_count());
   for (const GrowingTree& tree : trees_) planned += planned_metamers(tree.vigour, tree.place, step_ + 1);
@@ -109,16 +111,11 @@ bool Simulation::advance() {
   const int step = step_ + 1;
   barriers_.set_step(step);
 
-  // Judged on the tree that was sensed, cut when it has grown.
-  std::vector<std::vector<std::uint32_t>> shaded;
-  for (const GrowingTree& tree : trees_) {
-    shaded.push_back(shaded_axes(tree.plant, tree.sums, tree.place, step));
-  }
   shed_starved(step);
   for (GrowingTree& tree : trees_) extend(tree, step);
   stopwatch_.lap("shoots");
 
-  lose(shaded, step);
+  lose(step);
   shadow_.change(changes_.added, changes_.removed);
   changes_.added.clear();
   changes_.removed.clear();
@@ -127,8 +124,8 @@ bool Simulation::advance() {
   return true;
 }
 
-void Simulation::lose(const std::vector<std::vector<std::uint32_t>>& shaded, int step) {
-  for (std::size_t i = 0; i < trees_.size(); ++i) cut(trees_[i], shaded[i], step);
+void Simulation::lose(int step) {
+  for (GrowingTree& tree : trees_) cut(tree, tree.shaded, step);
   prune(step);
   if (world_.leaf_lifespan > 0) {
     for (const GrowingTree& tree : trees_) drop_leaves(tree, step);

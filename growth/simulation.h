@@ -41,7 +41,7 @@ class Simulation {
   void extend(GrowingTree& tree, int step);
   void drop_leaves(const GrowingTree& tree, int step);
   void shed_starved(int step);
-  void lose(const std::vector<std::vector<std::uint32_t>>& shaded, int step);
+  void lose(int step);
   void prune(int step);
   void cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step);
 
