@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/base/parallel.h"
 #include "growth/allocation.h"
 
 namespace ramify::growth {
@@ -8,6 +9,8 @@ namespace {
 
 // Where nothing is asked for, any rate will do that makes nothing of nothing: no branch is needed.
 constexpr double kLeastDemand = 1e-200;
+
+constexpr std::size_t kBudsPerTask = 4096;
 
 /// What the sides of a node ask for.
 using Demands = std::array<double, 2>;
@@ -62,10 +65,12 @@ void share(const Plant& plant, double at_root, double lambda, const OfSides& dem
     set_rates(node, passed(plant.parent[node], side_of(plant, node), of_node(node)));
   }
   set_size(vigour, plant.buds.size());
-  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
-    const Bud& bud = plant.buds[i];
-    vigour[i] = bud.is_dead() ? 0.0 : passed(bud.node, side_of(bud), of_bud(i));
-  }
+  parallel_for(plant.buds.size(), kBudsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Bud& bud = plant.buds[i];
+      vigour[i] = bud.is_dead() ? 0.0 : passed(bud.node, side_of(bud), of_bud(i));
+    }
+  });
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct GrowingTree {
 
   std::vector<LightSum> sums;         // one entry a node, as allocation leaves it
   double resource = 0.0;              // v at the root
-  std::vector<std::uint32_t> shaded;  // the first nodes of the axes that light will shed
+  std::vector<std::uint32_t> shaded;  // the nodes that are shed for want of light in this step
 };
 
 }  // namespace ramify::growth

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/parallel.h"
 #include "growth/allocation.h"
 #include "growth/cutting.h"
 #include "growth/environment_light.h"
@@ -33,6 +34,25 @@ Penumbra penumbra_of(const Parameters& world) {
 Coord caster_of(const Plant& plant, std::uint32_t node, const Parameters& world, const ShadowGrid& shadow) {
   const bool casts_from_start = world.shadow == ShadowModel::multiplicative;
   return shadow.voxel_of(plant.position[casts_from_start ? plant.parent[node] : node]);
+}
+
+/// Does two things of which neither needs the other.
+template <class First, class Second>
+void side_by_side(const First& first, const Second& second) {
+  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) i == 0 ? first() : second();
+  });
+}
+
+void allocate(GrowingTree& tree, int step) {
+  switch (tree.place.allocation) {
+    case Allocation::priority:
+      allocate_priority(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
+      break;
+    case Allocation::borchert_honda:
+      allocate_borchert_honda(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
+      break;
+  }
 }
 
 }  // namespace
@@ -82,15 +102,8 @@ void Simulation::sense() {
   for (GrowingTree& tree : trees_) {
     sum_light(tree.plant, tree.light, tree.sums);
     tree.resource = root_vigour(tree.sums, tree.place, step);
-    tree.shaded = shaded_axes(tree.plant, tree.sums, tree.place, step);
-    switch (tree.place.allocation) {
-      case Allocation::priority:
-        allocate_priority(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
-        break;
-      case Allocation::borchert_honda:
-        allocate_borchert_honda(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
-        break;
-    }
+    const std::vector<std::uint32_t> shaded = shaded_axes(tree.plant, tree.sums, tree.place, step);
+    side_by_side([&] { allocate(tree, step); }, [&] { tree.shaded = nodes_beyond(tree.plant, shaded); });
   }
   stopwatch_.lap("allocation");
 }
@@ -116,7 +129,7 @@ bool Simulation::advance() {
   stopwatch_.lap("shoots");
 
   lose(step);
-  shadow_.change(changes_.added, changes_.removed);
+  side_by_side([&] { shadow_.change(changes_.added, changes_.removed); }, [&] { close_holes(); });
   changes_.added.clear();
   changes_.removed.clear();
   stopwatch_.lap("shadow and shedding");
@@ -132,8 +145,11 @@ void Simulation::lose(int step) {
   }
   for (GrowingTree& tree : trees_) {
     abort_buds(tree.plant, world_, tree.place, shadow_, step, changes_);
-    compact(tree.plant, kHoleShare);
   }
+}
+
+void Simulation::close_holes() {
+  for (GrowingTree& tree : trees_) compact(tree.plant, kHoleShare);
 }
 
 void Simulation::extend(GrowingTree& tree, int step) {
@@ -147,20 +163,24 @@ void Simulation::extend(GrowingTree& tree, int step) {
     build_shoots(plant, batch, traces, world_, tree.place, shadow_, step, changes_);
   }
   if (tree.place.tip_bud == TipBud::terminal && buds_per_node(tree.place) > 1) sort_buds(plant);
+  follow_growth(plant, first, tree.shaded);
   if (tree.history) tree.history->record(plant, first);
   if (markers_) markers_->occupy(std::span(plant.position).subspan(first), occupied_radius(tree.place, step));
 }
 
 void Simulation::shed_starved(int step) {
   for (GrowingTree& tree : trees_) {
-    cut(tree, starved_internodes(tree.plant, tree.sums, tree.vigour, tree.place, step), step);
+    const auto starved = starved_internodes(tree.plant, tree.sums, tree.vigour, tree.place, step);
+    cut(tree, nodes_beyond(tree.plant, starved), step);
   }
 }
 
 void Simulation::prune(int step) {
   for (const PruneEvent& event : world_.prune) {
     if (!is_due(event, step)) continue;
-    for (GrowingTree& tree : trees_) cut(tree, pruned_internodes(tree.plant, event), step);
+    for (GrowingTree& tree : trees_) {
+      cut(tree, nodes_beyond(tree.plant, pruned_internodes(tree.plant, event)), step);
+    }
   }
 }
 
@@ -177,10 +197,9 @@ void Simulation::drop_leaves(const GrowingTree& tree, int step) {
   }
 }
 
-void Simulation::cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step) {
-  if (cuts.empty()) return;
+void Simulation::cut(GrowingTree& tree, const std::vector<std::uint32_t>& nodes, int step) {
+  if (nodes.empty()) return;
   Plant& plant = tree.plant;
-  const std::vector<std::uint32_t> nodes = nodes_beyond(plant, cuts);
   for (const std::uint32_t node : nodes) {
     if (tree.history) tree.history->shed_step[plant.id[node]] = static_cast<std::uint16_t>(step);
     const bool casts =

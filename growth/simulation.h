@@ -42,8 +42,9 @@ class Simulation {
   void drop_leaves(const GrowingTree& tree, int step);
   void shed_starved(int step);
   void lose(int step);
+  void close_holes();
   void prune(int step);
-  void cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step);
+  void cut(GrowingTree& tree, const std::vector<std::uint32_t>& nodes, int step);
 
   const Parameters& world_;
   ShadowGrid shadow_;
