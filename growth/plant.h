@@ -17,8 +17,7 @@ inline constexpr std::uint32_t kNone = 0xffffffff;
 
 /// A chain of internodes made by one bud and its successors; axis 0 is the trunk.
 struct Axis {
-  std::uint32_t base = 0;        // the node it grows from, on its parent axis (the trunk: the root)
-  std::uint32_t first = 0;       // its first own node; of the trunk the root
+  std::uint32_t first = 0;       // its first own node, whose parent bears it; of the trunk the root
   std::uint32_t node_count = 0;  // its own nodes ever; of the trunk the root too
   std::uint32_t id = 0;          // how many axes were founded before it: its name for good
   std::uint16_t order = 0;

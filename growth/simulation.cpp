@@ -155,12 +155,11 @@ void Simulation::close_holes() {
 void Simulation::extend(GrowingTree& tree, int step) {
   Plant& plant = tree.plant;
   const Guides guides{world_, tree.place, tree.place.seed, barriers_, field_, tree.space};
-  std::vector<Shoot> shoots = plan_shoots(plant, tree.vigour, tree.place, step);
+  ShootPlanner planner(plant, tree.vigour, tree.place, step);
   const std::size_t first = plant.node_count();
-  for (std::size_t done = 0; done < shoots.size(); done += kShootsAtOnce) {
-    const auto batch = std::span(shoots).subspan(done, std::min(kShootsAtOnce, shoots.size() - done));
-    const Traces traces = trace_shoots(batch, plant, guides, step);
-    build_shoots(plant, batch, traces, world_, tree.place, shadow_, step, changes_);
+  for (auto shoots = planner.next(kShootsAtOnce); !shoots.empty(); shoots = planner.next(kShootsAtOnce)) {
+    const Traces traces = trace_shoots(shoots, plant, guides, step);
+    build_shoots(plant, shoots, traces, world_, tree.place, shadow_, step, changes_);
   }
   if (tree.place.tip_bud == TipBud::terminal && buds_per_node(tree.place) > 1) sort_buds(plant);
   follow_growth(plant, first, tree.shaded);
