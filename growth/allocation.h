@@ -12,7 +12,8 @@ namespace ramify::growth {
 /// Extended Borchert-Honda model: at each node the main axis gets lambda * Q of its subtree, the laterals
 /// (1 - lambda) * Q of theirs, in proportion; with demand = mean n * (Q / n)^demand_exponent stands in place
 /// of Q, n being a side's internodes and buds. `vigour` gets one entry a bud; they sum to the v at the root
-/// unless all light is 0. Sets the rates in `sums`. O(nodes).
+/// unless all light is 0. With demand = sum the light in `sums` is used up: it becomes what each side
+/// passes on for a unit of light. O(nodes).
 void allocate_borchert_honda(const Plant& plant, const std::vector<double>& light,
                              std::vector<LightSum>& sums, const TreeParameters& tree, int step,
                              std::vector<double>& vigour);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/base/parallel.h"
 #include "growth/allocation.h"
 
 namespace ramify::growth {
@@ -8,6 +9,8 @@ namespace {
 
 // Where nothing is asked for, any rate will do that makes nothing of nothing: no branch is needed.
 constexpr double kLeastDemand = 1e-200;
+
+constexpr std::size_t kBudsPerTask = 4096;
 
 /// What the sides of a node ask for.
 using Demands = std::array<double, 2>;
@@ -38,32 +41,36 @@ std::vector<Demands> mean_demands(const Plant& plant, const std::vector<double>&
 }
 
 /// Hands the root's resource up. `demands(node)` are those of a node's sides, `of_node(node)` and `of_bud(i)`
-/// what a child node and a bud add to them.
+/// what a child node and a bud add to them. They become rates: what a side passes on for each unit of demand.
 template <class OfSides, class OfNode, class OfBud>
 void share(const Plant& plant, double at_root, double lambda, const OfSides& demands, const OfNode& of_node,
-           const OfBud& of_bud, std::vector<LightSum>& sums, std::vector<double>& vigour) {
+           const OfBud& of_bud, std::vector<double>& vigour) {
   // A side whose sister has no light gets all, even where lambda is 0 or 1.
   const std::array<Demands, 2> weights{Demands{1.0, lambda}, Demands{1.0, 1.0 - lambda}};
   const auto weight = [&](const Demands& sides, Side side) { return weights[side][sides[1 - side] > 0.0]; };
-  const auto set_rate = [&](std::size_t node, double received) {
-    const Demands& sides = demands(node);
-    const double demand = weight(sides, kMain) * sides[kMain] + weight(sides, kLateral) * sides[kLateral];
-    sums[node].rate = received / std::max(demand, kLeastDemand);
+  const auto set_rates = [&](std::size_t node, double received) {
+    Demands& sides = demands(node);
+    const Demands weighed{weight(sides, kMain), weight(sides, kLateral)};
+    const double demand = weighed[kMain] * sides[kMain] + weighed[kLateral] * sides[kLateral];
+    const double rate = received / std::max(demand, kLeastDemand);
+    sides = {rate * weighed[kMain], rate * weighed[kLateral]};
   };
   const auto passed = [&](std::size_t node, Side side, double demand) {
-    return sums[node].rate * weight(demands(node), side) * demand;
+    return demands(node)[side] * demand;
   };
 
-  set_rate(0, at_root);
+  set_rates(0, at_root);
   for (std::size_t node = 1; node < plant.node_count(); ++node) {
     if (plant.is_cut(node)) continue;
-    set_rate(node, passed(plant.parent[node], side_of(plant, node), of_node(node)));
+    set_rates(node, passed(plant.parent[node], side_of(plant, node), of_node(node)));
   }
-  vigour.resize(plant.buds.size());
-  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
-    const Bud& bud = plant.buds[i];
-    vigour[i] = bud.is_dead() ? 0.0 : passed(bud.node, side_of(bud), of_bud(i));
-  }
+  set_size(vigour, plant.buds.size());
+  parallel_for(plant.buds.size(), kBudsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Bud& bud = plant.buds[i];
+      vigour[i] = bud.is_dead() ? 0.0 : passed(bud.node, side_of(bud), of_bud(i));
+    }
+  });
 }
 
 }  // namespace
@@ -79,17 +86,17 @@ void allocate_borchert_honda(const Plant& plant, const std::vector<double>& ligh
   const double lambda = tree.lambda.at(step);
   if (tree.demand == Demand::sum) {
     share(
-        plant, at_root, lambda, [&](std::size_t node) -> const Demands& { return sums[node].light; },
+        plant, at_root, lambda, [&](std::size_t node) -> Demands& { return sums[node].light; },
         [&](std::size_t node) { return sums[node].total(); }, [&](std::size_t bud) { return light[bud]; },
-        sums, vigour);
+        vigour);
     return;
   }
   const double exponent = tree.demand_exponent.at(step);
-  const std::vector<Demands> demands = mean_demands(plant, light, sums, exponent);
+  std::vector<Demands> demands = mean_demands(plant, light, sums, exponent);
   share(
-      plant, at_root, lambda, [&](std::size_t node) -> const Demands& { return demands[node]; },
+      plant, at_root, lambda, [&](std::size_t node) -> Demands& { return demands[node]; },
       [&](std::size_t node) { return node_demand(sums[node], exponent); },
-      [&](std::size_t bud) { return mean_demand(light[bud], 1, exponent); }, sums, vigour);
+      [&](std::size_t bud) { return mean_demand(light[bud], 1, exponent); }, vigour);
 }
 
 }  // namespace ramify::growth

@@ -25,7 +25,8 @@ struct Lists {
 
 Lists list_items(const Plant& plant, const std::vector<double>& light, const std::vector<LightSum>& sums,
                  bool is_ranked_by_total) {
-  const auto host_of = [&](const Axis& axis) { return plant.axis[axis.base]; };
+  const auto base_of = [&](const Axis& axis) { return plant.parent[axis.first]; };
+  const auto host_of = [&](const Axis& axis) { return plant.axis[base_of(axis)]; };
   Lists lists;
   lists.first.assign(plant.axes.size() + 1, 0);
   for (const Bud& bud : plant.buds) {
@@ -49,7 +50,7 @@ Lists list_items(const Plant& plant, const std::vector<double>& light, const std
     const double total = sums[axis.first].total();
     const std::uint32_t buds = sums[axis.first].buds;
     const double mean = buds > 0 ? total / buds : 0.0;
-    lists.items[next[host_of(axis)]++] = {total, is_ranked_by_total ? total : mean, axis.base, i, true,
+    lists.items[next[host_of(axis)]++] = {total, is_ranked_by_total ? total : mean, base_of(axis), i, true,
                                           false};
   }
   return lists;

@@ -20,6 +20,16 @@ std::vector<std::uint32_t> nodes_beyond(const Plant& plant, const std::vector<st
   return nodes;
 }
 
+void follow_growth(const Plant& plant, std::size_t first, std::vector<std::uint32_t>& nodes) {
+  if (nodes.empty()) return;
+  std::vector<std::uint8_t> goes(plant.node_count(), 0);
+  for (const std::uint32_t node : nodes) goes[node] = 1;
+  for (std::size_t node = first; node < plant.node_count(); ++node) {
+    goes[node] = goes[plant.parent[node]];
+    if (goes[node]) nodes.push_back(static_cast<std::uint32_t>(node));
+  }
+}
+
 void cut_away(Plant& plant, const std::vector<std::uint32_t>& nodes) {
   // From the tips on: an internode that never bore another is one tip.
   for (std::size_t i = nodes.size(); i-- > 0;) {

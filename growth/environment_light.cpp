@@ -28,7 +28,7 @@ void sense_light(const Plant& plant, const Parameters& world, const TreeParamete
   };
   const auto multiplicative = [&](const Bud& bud) { return full * field.light(plant.position[bud.node]); };
 
-  light.resize(plant.buds.size());
+  set_size(light, plant.buds.size());
   const auto sense = [&](const auto& exposure) {
     parallel_for(plant.buds.size(), kBudsPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {

@@ -25,7 +25,6 @@ inline Side side_of(const Plant& plant, std::size_t node) {
 /// At a node, over its buds and all beyond them.
 struct LightSum {
   std::array<double, 2> light{};  // of each side
-  double rate = 0.0;              // allocation: resource passed on for each unit of demand
   std::uint32_t buds = 0;         // how many buds
   std::uint32_t internodes = 0;   // how many living internodes, the node's own included
 

@@ -36,10 +36,7 @@ void close_nodes(Plant& plant) {
       numbered(plant.axes.size(), [&](std::size_t i) { return plant.is_cut(plant.axes[i].first); });
   const auto new_node = numbered(plant.node_count(), [&](std::size_t node) { return plant.is_cut(node); });
   close_holes(plant.axes, new_axis);
-  for (Axis& axis : plant.axes) {
-    axis.base = new_node[axis.base];
-    axis.first = new_node[axis.first];
-  }
+  for (Axis& axis : plant.axes) axis.first = new_node[axis.first];
   close_holes(plant.position, new_node);
   close_holes(plant.parent, new_node);
   close_holes(plant.axis, new_node);

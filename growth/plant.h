@@ -3,6 +3,7 @@
 // basipetal. What is cut away leaves holes, which are closed when there are many.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -16,8 +17,7 @@ inline constexpr std::uint32_t kNone = 0xffffffff;
 
 /// A chain of internodes made by one bud and its successors; axis 0 is the trunk.
 struct Axis {
-  std::uint32_t base = 0;        // the node it grows from, on its parent axis (the trunk: the root)
-  std::uint32_t first = 0;       // its first own node; of the trunk the root
+  std::uint32_t first = 0;       // its first own node, whose parent bears it; of the trunk the root
   std::uint32_t node_count = 0;  // its own nodes ever; of the trunk the root too
   std::uint32_t id = 0;          // how many axes were founded before it: its name for good
   std::uint16_t order = 0;
@@ -57,12 +57,22 @@ struct Plant {
   bool is_cut(std::size_t node) const { return node != 0 && parent[node] == kNone; }
 };
 
-/// Room for so many more values. By more than doubling: each time an array moves, the old one and the new one
-/// are both in memory, while room that is never used takes none.
+/// Room for so many more values. Much of it from the start, and by more than doubling: each time an array
+/// moves, the old one and the new one are both in memory, and what it leaves is a hole in the heap, while
+/// room that is never used takes none.
 template <class T>
 void make_room(std::vector<T>& values, std::size_t more) {
   constexpr std::size_t kGrowth = 4;
-  if (values.capacity() - values.size() < more) values.reserve(kGrowth * (values.size() + more));
+  constexpr std::size_t kLeast = 1 << 20;
+  if (values.capacity() - values.size() >= more) return;
+  values.reserve(std::max(kLeast, kGrowth * (values.size() + more)));
+}
+
+/// std::vector::resize() with make_room().
+template <class T>
+void set_size(std::vector<T>& values, std::size_t size) {
+  if (size > values.size()) make_room(values, size - values.size());
+  values.resize(size);
 }
 
 /// The state of step 0: a terminal bud at the root, pointing up.

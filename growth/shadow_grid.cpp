@@ -12,7 +12,9 @@
 namespace ramify::growth {
 namespace {
 
-using Leaf = openvdb::Int32Tree::LeafNodeType;
+// Nodes of 128 voxels above the leaves and none above those: a tree is not much wider.
+using Voxels = openvdb::tree::Tree3<Shadow, 4, kLeafShift>::Type;
+using Leaf = Voxels::LeafNodeType;
 static_assert(Leaf::DIM == kLeafEdge && Leaf::SIZE == kLeafSize);
 
 // Casters that are worth more than one thread.
@@ -217,7 +219,7 @@ class GroupShadow {
 }  // namespace
 
 struct ShadowGrid::Tree {
-  openvdb::Int32Tree voxels{0};
+  Voxels voxels{0};
 };
 
 ShadowGrid::ShadowGrid(const Penumbra& penumbra, double voxel_size)

@@ -42,7 +42,7 @@ class Builder {
       add_axillary_buds(bud.node, shoot.first, shoot.bud);
     }
 
-    const std::uint32_t axis = bud.is_terminal ? bearer : found_axis(bud.node, bearer, shoot.axis_id);
+    const std::uint32_t axis = bud.is_terminal ? bearer : found_axis(bearer, shoot.axis_id);
     std::uint32_t node = bud.node;
     for (std::size_t slot = shoot.first + 1; slot <= shoot.first + shoot.made; ++slot) {
       node = add_node(axis, node, slot);
@@ -60,9 +60,8 @@ class Builder {
     if (buds_cast_) changes_.removed.push_back(traces_.voxel[shoot.first]);
   }
 
-  std::uint32_t found_axis(std::uint32_t base, std::uint32_t bearer, std::uint32_t id) {
+  std::uint32_t found_axis(std::uint32_t bearer, std::uint32_t id) {
     Axis axis;
-    axis.base = base;
     axis.first = static_cast<std::uint32_t>(plant_.node_count());
     axis.id = id;
     axis.order = static_cast<std::uint16_t>(plant_.axes[bearer].order + 1);

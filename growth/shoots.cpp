@@ -163,21 +163,26 @@ double planned_metamers(const std::vector<double>& vigour, const TreeParameters&
   return sum;
 }
 
-std::vector<Shoot> plan_shoots(const Plant& plant, const std::vector<double>& vigour,
-                               const TreeParameters& tree, int step) {
-  const double cap = tree.max_metamers.at(step);
-  const double length = tree.internode_length.at(step);
-  std::uint32_t next_axis = plant.axes_founded;
+ShootPlanner::ShootPlanner(const Plant& plant, const std::vector<double>& vigour, const TreeParameters& tree,
+                           int step)
+    : plant_(plant),
+      vigour_(vigour),
+      cap_(tree.max_metamers.at(step)),
+      length_(tree.internode_length.at(step)),
+      next_axis_(plant.axes_founded) {}
+
+std::vector<Shoot> ShootPlanner::next(std::size_t most) {
   std::vector<Shoot> shoots;
-  for (std::uint32_t i = 0; i < vigour.size(); ++i) {
-    const double capped = capped_vigour(vigour[i], cap);
+  for (; next_bud_ < vigour_.size() && shoots.size() < most; ++next_bud_) {
+    const double capped = capped_vigour(vigour_[next_bud_], cap_);
     const double count = metamer_count(capped);
-    if (count < 1.0 || plant.buds[i].is_dead()) continue;
+    const Bud& bud = plant_.buds[next_bud_];
+    if (count < 1.0 || bud.is_dead()) continue;
     Shoot shoot;
-    shoot.bud = i;
+    shoot.bud = next_bud_;
     shoot.planned = static_cast<std::uint32_t>(count);
-    shoot.axis_id = plant.buds[i].is_terminal ? plant.axes[plant.axis[plant.buds[i].node]].id : next_axis++;
-    shoot.metamer_length = length * capped / count;
+    shoot.axis_id = bud.is_terminal ? plant_.axes[plant_.axis[bud.node]].id : next_axis_++;
+    shoot.metamer_length = length_ * capped / count;
     shoots.push_back(shoot);
   }
   return shoots;

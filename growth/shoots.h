@@ -35,9 +35,23 @@ struct Traces {
 /// How many metamers the buds will make with this vigour; a number that may be beyond all memory.
 double planned_metamers(const std::vector<double>& vigour, const TreeParameters& tree, int step);
 
-/// One shoot for each bud with v >= 1, the axes of new ones named from plant.axes_founded on.
-std::vector<Shoot> plan_shoots(const Plant& plant, const std::vector<double>& vigour,
-                               const TreeParameters& tree, int step);
+/// Plans a step: one shoot for each bud with v >= 1, the axes of new ones named from plant.axes_founded on.
+class ShootPlanner {
+ public:
+  ShootPlanner(const Plant& plant, const std::vector<double>& vigour, const TreeParameters& tree, int step);
+
+  /// The next shoots, so many at most; none if there are no more. Those before may be part of the plant by
+  /// then.
+  std::vector<Shoot> next(std::size_t most);
+
+ private:
+  const Plant& plant_;
+  const std::vector<double>& vigour_;
+  double cap_;
+  double length_;
+  std::uint32_t next_bud_ = 0;
+  std::uint32_t next_axis_;
+};
 
 /// What the shoots of a step are guided by.
 struct Guides {

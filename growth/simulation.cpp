@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/parallel.h"
 #include "growth/allocation.h"
 #include "growth/cutting.h"
 #include "growth/environment_light.h"
@@ -33,6 +34,25 @@ Penumbra penumbra_of(const Parameters& world) {
 Coord caster_of(const Plant& plant, std::uint32_t node, const Parameters& world, const ShadowGrid& shadow) {
   const bool casts_from_start = world.shadow == ShadowModel::multiplicative;
   return shadow.voxel_of(plant.position[casts_from_start ? plant.parent[node] : node]);
+}
+
+/// Does two things of which neither needs the other.
+template <class First, class Second>
+void side_by_side(const First& first, const Second& second) {
+  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) i == 0 ? first() : second();
+  });
+}
+
+void allocate(GrowingTree& tree, int step) {
+  switch (tree.place.allocation) {
+    case Allocation::priority:
+      allocate_priority(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
+      break;
+    case Allocation::borchert_honda:
+      allocate_borchert_honda(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
+      break;
+  }
 }
 
 }  // namespace
@@ -81,14 +101,9 @@ void Simulation::sense() {
   stopwatch_.lap("environment");
   for (GrowingTree& tree : trees_) {
     sum_light(tree.plant, tree.light, tree.sums);
-    switch (tree.place.allocation) {
-      case Allocation::priority:
-        allocate_priority(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
-        break;
-      case Allocation::borchert_honda:
-        allocate_borchert_honda(tree.plant, tree.light, tree.sums, tree.place, step, tree.vigour);
-        break;
-    }
+    tree.resource = root_vigour(tree.sums, tree.place, step);
+    const std::vector<std::uint32_t> shaded = shaded_axes(tree.plant, tree.sums, tree.place, step);
+    side_by_side([&] { allocate(tree, step); }, [&] { tree.shaded = nodes_beyond(tree.plant, shaded); });
   }
   stopwatch_.lap("allocation");
 }
@@ -96,7 +111,7 @@ void Simulation::sense() {
 bool Simulation::has_room() const {
   // A metamer takes a vigour of 1, so there cannot be more of them than there is resource.
   double most = static_cast<double>(internode_count());
-  for (const GrowingTree& tree : trees_) most += root_vigour(tree.sums, tree.place, step_ + 1);
+  for (const GrowingTree& tree : trees_) most += tree.resource;
   if (most <= 0.99 * world_.max_internodes) return true;
   double planned = static_cast<double>(internode_count());
   for (const GrowingTree& tree : trees_) planned += planned_metamers(tree.vigour, tree.place, step_ + 1);
@@ -109,17 +124,12 @@ bool Simulation::advance() {
   const int step = step_ + 1;
   barriers_.set_step(step);
 
-  // Judged on the tree that was sensed, cut when it has grown.
-  std::vector<std::vector<std::uint32_t>> shaded;
-  for (const GrowingTree& tree : trees_) {
-    shaded.push_back(shaded_axes(tree.plant, tree.sums, tree.place, step));
-  }
   shed_starved(step);
   for (GrowingTree& tree : trees_) extend(tree, step);
   stopwatch_.lap("shoots");
 
-  lose(shaded, step);
-  shadow_.change(changes_.added, changes_.removed);
+  lose(step);
+  side_by_side([&] { shadow_.change(changes_.added, changes_.removed); }, [&] { close_holes(); });
   changes_.added.clear();
   changes_.removed.clear();
   stopwatch_.lap("shadow and shedding");
@@ -127,43 +137,49 @@ bool Simulation::advance() {
   return true;
 }
 
-void Simulation::lose(const std::vector<std::vector<std::uint32_t>>& shaded, int step) {
-  for (std::size_t i = 0; i < trees_.size(); ++i) cut(trees_[i], shaded[i], step);
+void Simulation::lose(int step) {
+  for (GrowingTree& tree : trees_) cut(tree, tree.shaded, step);
   prune(step);
   if (world_.leaf_lifespan > 0) {
     for (const GrowingTree& tree : trees_) drop_leaves(tree, step);
   }
   for (GrowingTree& tree : trees_) {
     abort_buds(tree.plant, world_, tree.place, shadow_, step, changes_);
-    compact(tree.plant, kHoleShare);
   }
+}
+
+void Simulation::close_holes() {
+  for (GrowingTree& tree : trees_) compact(tree.plant, kHoleShare);
 }
 
 void Simulation::extend(GrowingTree& tree, int step) {
   Plant& plant = tree.plant;
   const Guides guides{world_, tree.place, tree.place.seed, barriers_, field_, tree.space};
-  std::vector<Shoot> shoots = plan_shoots(plant, tree.vigour, tree.place, step);
+  ShootPlanner planner(plant, tree.vigour, tree.place, step);
   const std::size_t first = plant.node_count();
-  for (std::size_t done = 0; done < shoots.size(); done += kShootsAtOnce) {
-    const auto batch = std::span(shoots).subspan(done, std::min(kShootsAtOnce, shoots.size() - done));
-    const Traces traces = trace_shoots(batch, plant, guides, step);
-    build_shoots(plant, batch, traces, world_, tree.place, shadow_, step, changes_);
+  for (auto shoots = planner.next(kShootsAtOnce); !shoots.empty(); shoots = planner.next(kShootsAtOnce)) {
+    const Traces traces = trace_shoots(shoots, plant, guides, step);
+    build_shoots(plant, shoots, traces, world_, tree.place, shadow_, step, changes_);
   }
   if (tree.place.tip_bud == TipBud::terminal && buds_per_node(tree.place) > 1) sort_buds(plant);
+  follow_growth(plant, first, tree.shaded);
   if (tree.history) tree.history->record(plant, first);
   if (markers_) markers_->occupy(std::span(plant.position).subspan(first), occupied_radius(tree.place, step));
 }
 
 void Simulation::shed_starved(int step) {
   for (GrowingTree& tree : trees_) {
-    cut(tree, starved_internodes(tree.plant, tree.sums, tree.vigour, tree.place, step), step);
+    const auto starved = starved_internodes(tree.plant, tree.sums, tree.vigour, tree.place, step);
+    cut(tree, nodes_beyond(tree.plant, starved), step);
   }
 }
 
 void Simulation::prune(int step) {
   for (const PruneEvent& event : world_.prune) {
     if (!is_due(event, step)) continue;
-    for (GrowingTree& tree : trees_) cut(tree, pruned_internodes(tree.plant, event), step);
+    for (GrowingTree& tree : trees_) {
+      cut(tree, nodes_beyond(tree.plant, pruned_internodes(tree.plant, event)), step);
+    }
   }
 }
 
@@ -180,10 +196,9 @@ void Simulation::drop_leaves(const GrowingTree& tree, int step) {
   }
 }
 
-void Simulation::cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step) {
-  if (cuts.empty()) return;
+void Simulation::cut(GrowingTree& tree, const std::vector<std::uint32_t>& nodes, int step) {
+  if (nodes.empty()) return;
   Plant& plant = tree.plant;
-  const std::vector<std::uint32_t> nodes = nodes_beyond(plant, cuts);
   for (const std::uint32_t node : nodes) {
     if (tree.history) tree.history->shed_step[plant.id[node]] = static_cast<std::uint16_t>(step);
     const bool casts =

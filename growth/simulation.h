@@ -41,9 +41,10 @@ class Simulation {
   void extend(GrowingTree& tree, int step);
   void drop_leaves(const GrowingTree& tree, int step);
   void shed_starved(int step);
-  void lose(const std::vector<std::vector<std::uint32_t>>& shaded, int step);
+  void lose(int step);
+  void close_holes();
   void prune(int step);
-  void cut(GrowingTree& tree, const std::vector<std::uint32_t>& cuts, int step);
+  void cut(GrowingTree& tree, const std::vector<std::uint32_t>& nodes, int step);
 
   const Parameters& world_;
   ShadowGrid shadow_;

@@ -45,6 +45,20 @@ TEST_CASE("cutting: all that grows from a cut goes with it, and the tips are rem
   CHECK(plant.internode_count() == 0);
 }
 
+TEST_CASE("cutting: what has grown since from nodes that go goes with them") {
+  Plant plant = forked();
+  Nodes nodes = nodes_beyond(plant, {3});
+  Nodes none;
+  add_node(plant, 4, 1);
+  add_node(plant, 5, 0);
+  add_node(plant, 6, 1);
+  follow_growth(plant, 6, nodes);
+  follow_growth(plant, 6, none);
+  CHECK(nodes == nodes_beyond(plant, {3}));
+  CHECK(nodes == Nodes{3, 4, 6, 8});
+  CHECK(none.empty());
+}
+
 TEST_CASE("cutting: closing the holes leaves the living as they were") {
   Plant plant = forked();
   plant.position[5] = {5, 5, 5};

@@ -20,7 +20,7 @@ inline std::uint32_t add_node(growth::Plant& plant, std::uint32_t parent, std::u
   plant.lost_tips.push_back(0);
   const auto node = static_cast<std::uint32_t>(plant.node_count() - 1);
   if (axis == plant.axes.size()) {
-    plant.axes.push_back({.base = parent, .first = node, .id = plant.axes_founded++, .order = 1});
+    plant.axes.push_back({.first = node, .id = plant.axes_founded++, .order = 1});
   }
   ++plant.axes[axis].node_count;
   return node;

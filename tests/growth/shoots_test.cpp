@@ -15,7 +15,7 @@ void grow(Plant& plant, const Parameters& parameters, const std::vector<double>&
   Barriers barriers(parameters);
   barriers.set_step(step);
   const std::vector<Vec3f> space;
-  std::vector<Shoot> shoots = plan_shoots(plant, vigour, parameters, step);
+  std::vector<Shoot> shoots = ShootPlanner(plant, vigour, parameters, step).next(1000);
   const Guides guides{parameters, parameters, parameters.seed, barriers, field, space};
   const Traces traces = trace_shoots(shoots, plant, guides, step);
   CasterChanges changes;
@@ -175,7 +175,7 @@ TEST_CASE("shoots: the best direction is looked for at each metamer, or once a s
     const LightField field(shadow, ShadowModel::additive, 1);
     Barriers barriers(parameters);
     const std::vector<Vec3f> space;
-    std::vector<Shoot> shoots = plan_shoots(plant, {4.0}, parameters, 1);
+    std::vector<Shoot> shoots = ShootPlanner(plant, {4.0}, parameters, 1).next(1000);
     const Guides guides{parameters, parameters, 1, barriers, field, space};
     return trace_shoots(shoots, plant, guides, 1).position.back();
   };
