@@ -1,6 +1,7 @@
 #include "pathplan/parameter_check.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <array>
 #include <cmath>

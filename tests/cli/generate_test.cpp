@@ -1,5 +1,6 @@
 // What the program does when all is well.
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>

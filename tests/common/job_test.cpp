@@ -1,5 +1,6 @@
 #include "common/config/job.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "common/base/errors.h"

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <stop_token>
+#include <tuple>
 
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
