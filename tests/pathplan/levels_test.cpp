@@ -1,6 +1,7 @@
 #include "pathplan/levels.h"
 
 #include <functional>
+#include <tuple>
 
 #include "common/base/parallel.h"
 #include "pathplan/orientation.h"
