@@ -57,15 +57,17 @@ struct Plant {
   bool is_cut(std::size_t node) const { return node != 0 && parent[node] == kNone; }
 };
 
-/// Room for so many more values. Much of it from the start, and by more than doubling: each time an array
-/// moves, the old one and the new one are both in memory, and what it leaves is a hole in the heap, while
-/// room that is never used takes none.
+/// Room for so many more values. Much of it once there are many, and by more than doubling: each time a large
+/// array moves, the old one and the new one are both in memory, and what it leaves is a hole in the heap,
+/// while room that is never used takes none. (Small trees get little: there may be thousands of them.)
 template <class T>
 void make_room(std::vector<T>& values, std::size_t more) {
   constexpr std::size_t kGrowth = 4;
-  constexpr std::size_t kLeast = 1 << 20;
-  if (values.capacity() - values.size() >= more) return;
-  values.reserve(std::max(kLeast, kGrowth * (values.size() + more)));
+  constexpr std::size_t kMany = 1 << 14;
+  constexpr std::size_t kLeastOfMany = 1 << 20;
+  const std::size_t wanted = values.size() + more;
+  if (values.capacity() >= wanted) return;
+  values.reserve(wanted < kMany ? kGrowth * wanted : std::max(kLeastOfMany, kGrowth * wanted));
 }
 
 /// std::vector::resize() with make_room().

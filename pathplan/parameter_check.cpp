@@ -60,8 +60,7 @@ class LevelCheck {
   }
 
   void check_first() {
-    check_volume(level().volume, key_of("volume"));
-    cubic_metres_ = volume_of(level().volume);
+    cubic_metres_ = check_volume(level().volume, key_of("volume"));
     if (level().endpoints == EndpointKind::manual && level().points.empty()) {
       fail("points", "none, with endpoints = \"manual\" (at least one)");
     }

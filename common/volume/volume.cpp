@@ -128,9 +128,10 @@ double shared_volume_of(const Volume& a, const Volume& b, int points) {
       shared, points, [&](const Vec3& point) { return solid_a.contains(point) && solid_b.contains(point); });
 }
 
-void check_volume(const Volume& volume, const std::string& key) {
+double check_volume(const Volume& volume, const std::string& key) {
   check_shape(volume, key);
-  if (volume_of(volume) > 0.0) return;
+  const double cubic_metres = volume_of(volume);
+  if (cubic_metres > 0.0) return cubic_metres;
   throw ConfigError("", key, "nothing inside it (sizes that fill at least a hundred-thousandth of its box)");
 }
 

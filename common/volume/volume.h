@@ -74,7 +74,8 @@ double shared_volume_of(const Volume& a, const Volume& b, int points = 100'000);
 double outer_depth(const Volume& volume, const Vec3& point);
 
 /// Throws ConfigError with the dotted key of what is wrong, `key` being the volume's own: a direction of
-/// length 0, a union without parts, a sketch or mesh that cannot be used, a volume that is empty.
-void check_volume(const Volume& volume, const std::string& key);
+/// length 0, a union without parts, a sketch or mesh that cannot be used, a volume that is empty. Returns its
+/// cubic metres, as volume_of().
+double check_volume(const Volume& volume, const std::string& key);
 
 }  // namespace ramify

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "common/base/files.h"
@@ -238,3 +239,21 @@ TEST_CASE("params: every parameter with default, meaning and source, and --toml 
   const Outcome json = run_program("params growth --json");
   CHECK(nlohmann::json::parse(json.out.substr(0, json.out.find('\n')))["key"] == "seed");
 }
+
+#ifndef __SANITIZE_ADDRESS__  // which asks for terabytes
+TEST_CASE("generate: a thousand small trees ask for no more address space than they need") {
+  const Folder folder;
+  std::string text = "base = \"s4-fig6\"\nsteps = 3\n";
+  for (int i = 0; i < 1000; ++i) {
+    text += "[[growth.trees]]\nposition = [" + std::to_string(3 * (i % 40)) + ", 0, " +
+            std::to_string(3 * (i / 40)) + "]\n";
+  }
+  std::ofstream(folder.file("many.toml")) << text;
+  // 6 GB: the program and its threads take part of it, and memory limits of clusters are of this kind.
+  const Outcome outcome = run_shell("ulimit -v 6000000; '" + program_path() + "' generate many.toml --json",
+                                    folder.path().string());
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "\"internodes\":20"));
+}
+#endif
