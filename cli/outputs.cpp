@@ -7,13 +7,13 @@
 #include <array>
 
 #include "common/base/errors.h"
+#include "common/base/image.h"
 #include "common/format/layer_files.h"
 #include "common/format/skeleton_table.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/obj.h"
 #include "common/mesh/ply.h"
 #include "common/volume/voxel_file.h"
-#include "viewer/image.h"
 #include "viewer/renderer.h"
 
 namespace ramify::cli {

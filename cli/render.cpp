@@ -9,7 +9,7 @@
 #include "cli/inputs.h"
 #include "common/base/errors.h"
 #include "common/base/files.h"
-#include "viewer/image.h"
+#include "common/base/image.h"
 #include "viewer/renderer.h"
 
 namespace ramify::cli {

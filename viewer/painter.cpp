@@ -115,7 +115,7 @@ void Painter::load_mesh(const Scene& scene) {
                GL_STATIC_DRAW);
   for (const MaterialRange& range : mesh.ranges) {
     // The mesher's branches are closed; a file's need not be, and leaves have two sides.
-    const bool is_closed = scene.skeleton != nullptr && range.material == "bark";
+    const bool is_closed = scene.skeleton != nullptr && !mesh.material(range).is_two_sided;
     tree_.ranges.push_back({3 * range.first_triangle, static_cast<int>(3 * range.triangle_count), is_closed});
   }
   glBindVertexArray(0);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "viewer/image.h"
+#include "common/base/image.h"
 #include "viewer/scene.h"
 
 namespace ramify {

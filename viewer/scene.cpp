@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "common/base/errors.h"
+#include "common/mesh/attribute_colors.h"
 #include "common/mesh/mesh.h"
+#include "common/mesh/palette.h"
 #include "common/skeleton/skeleton.h"
-#include "viewer/attributes.h"
-#include "viewer/palette.h"
 
 namespace ramify {
 namespace {
@@ -49,7 +49,7 @@ std::vector<ColorBytes> bark_colors(const Scene& scene) {
 
 void color_leaves(const Mesh& mesh, std::vector<ColorBytes>& colors) {
   for (const MaterialRange& range : mesh.ranges) {
-    if (range.material != "leaf") continue;
+    if (mesh.material(range).name != "leaf") continue;
     for (std::size_t index = 0; index < range.triangle_count; ++index) {
       for (std::uint32_t vertex : mesh.triangles[range.first_triangle + index]) colors[vertex] = kLeafGreen;
     }

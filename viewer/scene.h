@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "common/base/color.h"
 #include "common/base/geometry.h"
 #include "viewer/camera.h"
-#include "viewer/color.h"
 
 namespace ramify {
 
@@ -28,8 +28,8 @@ struct RenderOptions {
   ViewDirection view;
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
-  std::string color_by;             // an attribute (attributes.h); empty: bark if lit, black if schematic
-  bool with_scale = false;          // a bar with its length and a human figure beside the tree
+  std::string color_by;     // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
+  bool with_scale = false;  // a bar with its length and a human figure beside the tree
 };
 
 struct Scene {

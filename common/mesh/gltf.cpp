@@ -11,9 +11,6 @@
 namespace ramify {
 namespace {
 
-// The bark of most trees, linear RGB.
-constexpr std::array<double, 4> kBarkColor = {0.17, 0.12, 0.085, 1.0};
-
 /// Copies `values` to the end of the model's buffer and describes them; returns the accessor's index.
 template <class T>
 int add_accessor(tinygltf::Model& model, const std::vector<T>& values, int target, int type, int component) {
@@ -48,13 +45,15 @@ void set_bounds(tinygltf::Accessor& accessor, const std::vector<Vec3f>& position
   accessor.maxValues = {high.x, high.y, high.z};
 }
 
-tinygltf::Material material_named(const std::string& name) {
-  tinygltf::Material material;
-  material.name = name;
-  material.pbrMetallicRoughness.baseColorFactor.assign(kBarkColor.begin(), kBarkColor.end());
-  material.pbrMetallicRoughness.metallicFactor = 0.0;
-  material.pbrMetallicRoughness.roughnessFactor = 0.9;
-  return material;
+tinygltf::Material gltf_material(const Material& material) {
+  tinygltf::Material result;
+  result.name = material.name;
+  const Vec3f& color = material.color;
+  result.pbrMetallicRoughness.baseColorFactor = {color.r, color.g, color.b, 1.0};
+  result.pbrMetallicRoughness.metallicFactor = 0.0;
+  result.pbrMetallicRoughness.roughnessFactor = material.roughness;
+  result.doubleSided = material.is_two_sided;
+  return result;
 }
 
 void add_mesh(tinygltf::Model& model, const Mesh& mesh) {
@@ -79,10 +78,10 @@ void add_mesh(tinygltf::Model& model, const Mesh& mesh) {
     primitive.attributes = {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}};
     primitive.indices = add_accessor(model, triangles, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                                      TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
-    primitive.material = static_cast<int>(model.materials.size());
-    model.materials.push_back(material_named(range.material));
+    primitive.material = static_cast<int>(range.material);
     tree.primitives.push_back(primitive);
   }
+  for (const Material& material : mesh.materials) model.materials.push_back(gltf_material(material));
   model.meshes.push_back(tree);
 }
 
@@ -162,7 +161,7 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   normals.resize(positions.size(), Vec3f(0, 1, 0));
   mesh.normals.insert(mesh.normals.end(), normals.begin(), normals.end());
   mesh.uvs.resize(mesh.positions.size(), Vec2f(0, 0));
-  mesh.ranges.push_back({"bark", first_triangle, mesh.triangles.size() - first_triangle});
+  mesh.ranges.push_back({0, first_triangle, mesh.triangles.size() - first_triangle});
 }
 
 }  // namespace
@@ -217,6 +216,8 @@ Mesh read_gltf(const std::string& bytes, const std::string& name) {
     throw InputError(fmt::format("{}: no glTF: {}", name, error));
   }
   Mesh mesh;
+  mesh.materials.resize(1);
+  mesh.materials[0].name = "bark";
   for (const tinygltf::Mesh& part : model.meshes) {
     for (const tinygltf::Primitive& primitive : part.primitives)
       append_primitive(model, primitive, mesh, name);

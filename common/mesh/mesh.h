@@ -1,4 +1,4 @@
-// A triangle mesh with the attributes that files and the renderer use.
+// A triangle mesh with the attributes that files and the renderer use, and the materials it is made of.
 #pragma once
 
 #include <array>
@@ -7,12 +7,24 @@
 #include <vector>
 
 #include "common/base/geometry.h"
+#include "common/base/image.h"
 
 namespace ramify {
 
+/// What a surface looks like, in the terms of glTF's metallic-roughness model: nothing of a tree is metal.
+struct Material {
+  std::string name;           // "bark", "leaf"
+  Vec3f color{1.0f};          // linear RGB; multiplied by the image where there is one
+  float roughness = 0.9f;     // 0 mirror, 1 dull
+  Image image;                // empty: the colour alone
+  Image normal_map;           // empty: none; tangent space, x along +u, y along +v, z outwards
+  bool is_cutout = false;     // where the image's alpha is below one half there is nothing
+  bool is_two_sided = false;  // both sides are seen; else the surface is closed and only its outside is
+};
+
 /// A run of triangles that share a material.
 struct MaterialRange {
-  std::string material;  // "bark", "leaf"
+  std::size_t material = 0;  // index into Mesh::materials
   std::size_t first_triangle = 0;
   std::size_t triangle_count = 0;
 };
@@ -21,12 +33,15 @@ struct MaterialRange {
 struct Mesh {
   std::vector<Vec3f> positions;  // metres
   std::vector<Vec3f> normals;    // unit length, one a vertex
-  std::vector<Vec2f> uvs;        // one a vertex: u once around the branch, v along it, one unit a girth
-  std::vector<std::uint32_t> internodes;  // the skeleton node that each vertex belongs to
+  std::vector<Vec2f> uvs;  // one a vertex; on bark u once around the branch, v along it, one unit a girth
+  std::vector<std::array<std::uint8_t, 4>> colors;  // sRGB and alpha, one a vertex; empty: none
+  std::vector<std::uint32_t> internodes;            // the skeleton node that each vertex belongs to
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<MaterialRange> ranges;  // in order, covering all triangles
+  std::vector<Material> materials;
 
   std::size_t vertex_count() const { return positions.size(); }
+  const Material& material(const MaterialRange& range) const { return materials[range.material]; }
 };
 
 }  // namespace ramify

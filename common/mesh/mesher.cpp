@@ -15,6 +15,16 @@ constexpr double kRingSpacing = 0.75;
 // A bend's ring is widened to keep the tube's thickness, but no more than at a right angle.
 constexpr double kMiterMax = std::numbers::sqrt2;
 
+// The bark of most trees, linear RGB.
+constexpr Vec3f kBarkColor(0.17f, 0.12f, 0.085f);
+
+Material bark_material() {
+  Material bark;
+  bark.name = "bark";
+  bark.color = kBarkColor;
+  return bark;
+}
+
 /// The nodes of one tube, base to tip, as a range of `Tubes::nodes`, and where its part of the mesh begins.
 struct Tube {
   std::size_t first = 0;
@@ -259,7 +269,10 @@ Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   mesh.uvs.resize(vertices);
   mesh.internodes.resize(vertices);
   mesh.triangles.resize(triangles);
-  if (triangles > 0) mesh.ranges.push_back({"bark", 0, triangles});
+  if (triangles > 0) {
+    mesh.materials.push_back(bark_material());
+    mesh.ranges.push_back({0, 0, triangles});
+  }
   parallel_for(tubes.tubes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Tube& tube = tubes.tubes[i];

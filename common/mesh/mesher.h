@@ -20,7 +20,7 @@ struct MesherOptions {
 };
 
 /// A lateral's tube starts at its parent's centre line with its own first radius, so no gap shows at a fork;
-/// a root's end is closed flat and every tip by a short cone. All triangles have the material "bark". A
+/// a root's end is closed flat and every tip by a short cone. All triangles have the one material "bark". A
 /// skeleton without internodes gives an empty mesh. O(n), on all threads.
 Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options);
 

@@ -52,7 +52,7 @@ void write_obj(const Mesh& mesh, const Provenance& provenance, const std::string
   for (const Vec2f& t : mesh.uvs) text.add("vt {} {}\n", t.x, t.y);
   for (const Vec3f& n : mesh.normals) text.add("vn {} {} {}\n", n.x, n.y, n.z);
   for (const MaterialRange& range : mesh.ranges) {
-    text.add("usemtl {}\n", range.material);
+    text.add("usemtl {}\n", mesh.material(range).name);
     for (std::size_t i = range.first_triangle; i < range.first_triangle + range.triangle_count; ++i) {
       const auto [a, b, c] = mesh.triangles[i];  // OBJ counts from 1
       text.add("f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", a + 1, b + 1, c + 1);
@@ -62,8 +62,8 @@ void write_obj(const Mesh& mesh, const Provenance& provenance, const std::string
 
 void write_mtl(const Mesh& mesh, std::ostream& out) {
   Text text(out);
-  for (const MaterialRange& range : mesh.ranges) {
-    text.add("newmtl {}\nKd 0.45 0.38 0.32\nKs 0 0 0\nillum 1\n", range.material);
+  for (const Material& material : mesh.materials) {
+    text.add("newmtl {}\nKd 0.45 0.38 0.32\nKs 0 0 0\nillum 1\n", material.name);
   }
 }
 

@@ -37,7 +37,10 @@ Mesh tube_mesh(const Skeleton& skeleton) {
       mesh.triangles.push_back({low, high + 1, high});
     }
   }
-  if (!mesh.triangles.empty()) mesh.ranges = {{"bark", 0, mesh.triangles.size()}};
+  if (!mesh.triangles.empty()) {
+    mesh.materials.resize(1);
+    mesh.ranges = {{0, 0, mesh.triangles.size()}};
+  }
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-#include "viewer/attributes.h"
+#include "common/mesh/attribute_colors.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "common/base/errors.h"
+#include "common/mesh/palette.h"
 #include "common/skeleton/passes.h"
-#include "viewer/palette.h"
 
 namespace ramify {
 namespace {

@@ -1,8 +1,8 @@
-#include "viewer/color.h"
+#include "common/base/color.h"
 
+#include "common/mesh/palette.h"
 #include "tests/catch.h"
 #include "tests/viewer/close.h"
-#include "viewer/palette.h"
 
 using namespace ramify;
 using namespace ramify::test;

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/color.h"
 #include "common/skeleton/skeleton.h"
-#include "viewer/color.h"
 
 namespace ramify {
 

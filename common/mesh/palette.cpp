@@ -1,4 +1,4 @@
-#include "viewer/palette.h"
+#include "common/mesh/palette.h"
 
 #include <algorithm>
 #include <array>

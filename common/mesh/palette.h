@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "viewer/color.h"
+#include "common/base/color.h"
 
 namespace ramify {
 

@@ -1,4 +1,4 @@
-#include "viewer/color.h"
+#include "common/base/color.h"
 
 #include <array>
 #include <charconv>

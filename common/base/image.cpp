@@ -1,4 +1,4 @@
-#include "viewer/image.h"
+#include "common/base/image.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,10 +1,10 @@
-#include "viewer/attributes.h"
+#include "common/mesh/attribute_colors.h"
 
 #include "common/base/errors.h"
+#include "common/mesh/palette.h"
 #include "tests/catch.h"
 #include "tests/viewer/close.h"
 #include "tests/viewer/poles.h"
-#include "viewer/palette.h"
 
 using namespace ramify;
 using namespace ramify::test;
