@@ -9,10 +9,17 @@ namespace ramify {
 
 enum class MeshMethod { smooth, cones };
 
+enum class CentreLine {
+  polyline,    // straight between the nodes, with rounded bends
+  catmull_rom  // a curve through the nodes
+};
+
 struct MesherOptions {
   MeshMethod method = MeshMethod::smooth;
-  int sides_min = 4;   // of the thinnest twigs
-  int sides_max = 12;  // of the thickest axis
+  CentreLine centre_line = CentreLine::polyline;
+  int sides_min = 3;        // of the thinnest twigs
+  int sides_max = 12;       // of the thickest axis
+  double root_flare = 0.8;  // how much wider the trunk is at the ground, of its own radius
 
   static const Table& fields();
 };
