@@ -8,7 +8,7 @@
 #include "common/base/files.h"
 #include "common/base/parallel.h"
 #include "common/config/job.h"
-#include "common/format/skeleton_table.h"
+#include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/mesher.h"
 #include "common/skeleton/passes.h"
@@ -34,15 +34,19 @@ Tree meshed(Skeleton skeleton, const MesherOptions& options, const RunFlags& fla
 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
   const std::string ending = std::filesystem::path(input).extension().string();
-  const bool is_file = ending == ".csv" || ending == ".glb" || ending == ".gltf";
+  const bool is_mesh = ending == ".glb" || ending == ".gltf";
+  const bool is_skeleton = is_skeleton_file(input);
   const std::vector<Override> overrides = flags.configuring.overrides();
-  if (is_file && !overrides.empty()) {
+  if ((is_mesh || is_skeleton) && !overrides.empty()) {
     throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));
   }
-  if (ending == ".csv") {
-    return meshed(cut(read_skeleton_table(read_file(input), input), flags, input), {}, flags.running);
+  if (is_skeleton) {
+    SkeletonFile file = read_skeleton(input, flags.skeleton);
+    if (!flags.running.is_quiet) note(file.notes);
+    return meshed(cut(std::move(file.skeleton), flags, input), {}, flags.running);
   }
-  if (is_file) {
+  if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
+  if (is_mesh) {
     if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
     return {std::nullopt, read_gltf(read_file(input), input)};
   }
