@@ -8,7 +8,7 @@
 #include "common/base/files.h"
 #include "common/base/parallel.h"
 #include "common/config/job.h"
-#include "common/format/skeleton_table.h"
+#include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/mesher.h"
 #include "common/skeleton/passes.h"
@@ -41,10 +41,13 @@ struct Grown {
 
 Grown read_grown(const std::string& input, const InputFlags& flags, const Session& session) {
   const std::vector<Override> overrides = flags.configuring.overrides();
-  if (std::filesystem::path(input).extension() == ".csv") {
+  if (is_skeleton_file(input)) {
     refuse(overrides, input);
-    return {cut(read_skeleton_table(read_file(input), input), flags, input), {}};
+    SkeletonFile file = read_skeleton(input, flags.skeleton);
+    if (!flags.running.is_quiet) note(file.notes);
+    return {cut(std::move(file.skeleton), flags, input), {}};
   }
+  if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
   const Job job = load_job(session.registry, input, overrides);
   RunContext context;
   context.stop = session.stop;
@@ -55,9 +58,10 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
 
 }  // namespace
 
-Skeleton read_skeleton(const std::string& input, const InputFlags& flags, const Session& session) {
+Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
   if (is_mesh(input)) {
-    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, preset or .csv)", input));
+    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
+                                 input, skeleton_endings()));
   }
   return read_grown(input, flags, session).skeleton;
 }
@@ -65,6 +69,7 @@ Skeleton read_skeleton(const std::string& input, const InputFlags& flags, const 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
   if (is_mesh(input)) {
     refuse(flags.configuring.overrides(), input);
+    if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
     if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
     return {std::nullopt, read_gltf(read_file(input), input)};
   }

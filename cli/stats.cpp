@@ -1,8 +1,8 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/Option.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -73,7 +73,9 @@ void print_aligned(const std::vector<std::vector<std::string>>& rows) {
 void print_table(const std::vector<Measured>& trees) {
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"metric"});
-  for (const Measured& tree : trees) rows.back().push_back(tree.input);
+  for (const Measured& tree : trees) {
+    rows.back().push_back(std::filesystem::path(tree.input).filename().string());
+  }
   rows.back().insert(rows.back().end(), {"unit", "real trees"});
   for (const MetricInfo& info : metric_table()) {
     rows.push_back({std::string(info.key)});
@@ -105,7 +107,7 @@ void stats(StatsFlags flags, const Session& session) {
   if (flags.at_step >= 0) flags.reading.at_step = static_cast<std::uint32_t>(flags.at_step);
   std::vector<Measured> trees;
   for (const std::string& input : flags.inputs) {
-    trees.push_back({input, measure(read_skeleton(input, flags.reading, session))});
+    trees.push_back({input, measure(read_living(input, flags.reading, session))});
     if (session.stop.stop_requested()) throw Interrupted();
   }
   if (flags.reading.running.is_json) return print_json(trees);
@@ -119,12 +121,14 @@ void stats(StatsFlags flags, const Session& session) {
 void add_stats(CLI::App& program, const Session& session) {
   auto flags = std::make_shared<StatsFlags>();
   CLI::App* command = program.add_subcommand("stats", "Measure trees, beside what real trees have");
-  command->add_option("input", flags->inputs, "A preset or TOML file, or a skeleton table (.csv)")
+  command
+      ->add_option("input", flags->inputs, "A preset or TOML file, or a skeleton file: " + skeleton_endings())
       ->type_name("INPUT")
       ->required();
   command->add_option("--at-step", flags->at_step, "The tree as it was after step K")
       ->type_name("K")
       ->check(CLI::NonNegativeNumber);
+  add_up_flag(*command, flags->reading.skeleton);
   command->add_flag("--csv", flags->is_csv, "Print a header and one row an input");
   flags->reading.configuring.add_to(*command);
   flags->reading.running.add_to(*command);

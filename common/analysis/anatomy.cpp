@@ -5,8 +5,6 @@ namespace ramify {
 Anatomy::Anatomy(const Skeleton& skeleton) : skeleton_(skeleton) {
   const std::size_t count = skeleton.node_count();
   const std::size_t roots = skeleton.root_count();
-  const auto channel = skeleton.channels.find("start_radius");
-  if (channel != skeleton.channels.end()) start_radii_ = &channel->second;
 
   child_ = grouped(skeleton.parent, roots, count);
   axis_of_.assign(count, kNoParent);
@@ -31,11 +29,6 @@ Anatomy::Anatomy(const Skeleton& skeleton) : skeleton_(skeleton) {
 std::uint32_t Anatomy::bearer(std::size_t index) const {
   const std::uint32_t parent = skeleton_.parent[axis(index).front()];
   return skeleton_.is_root(parent) ? kNoParent : parent;
-}
-
-double Anatomy::start_radius(std::size_t node) const {
-  if (start_radii_) return (*start_radii_)[node];
-  return 0.5 * skeleton_.diameter[is_founder(node) ? node : skeleton_.parent[node]];
 }
 
 Anatomy::Lists Anatomy::grouped(std::span<const std::uint32_t> key, std::size_t begin, std::size_t lists) {

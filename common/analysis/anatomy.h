@@ -42,10 +42,6 @@ class Anatomy {
 
   bool is_founder(std::size_t node) const { return axis(axis_of_[node]).front() == node; }
 
-  /// Radius at an internode's start, metres: the channel `start_radius` if the skeleton has it, else its
-  /// parent's, or its own if it founds an axis.
-  double start_radius(std::size_t node) const;
-
  private:
   /// Lists of nodes, one behind the other.
   struct Lists {
@@ -59,7 +55,6 @@ class Anatomy {
   static Lists grouped(std::span<const std::uint32_t> key, std::size_t begin, std::size_t lists);
 
   const Skeleton& skeleton_;
-  const std::vector<double>* start_radii_ = nullptr;
   Lists child_;
   Lists axis_;
   std::vector<std::uint32_t> axis_of_;

@@ -24,7 +24,7 @@ std::optional<double> breast_height_diameter(const Anatomy& stem) {
     const double end = height_above_root(stem, node);
     if (!(start <= kBreastHeight && kBreastHeight <= end && start < end)) continue;
     const double part = (kBreastHeight - start) / (end - start);
-    const double diameter = (1.0 - part) * 2.0 * stem.start_radius(node) + part * s.diameter[node];
+    const double diameter = (1.0 - part) * 2.0 * s.start_radius(node) + part * s.diameter[node];
     widest = std::max(widest.value_or(0.0), diameter);
   }
   return widest;

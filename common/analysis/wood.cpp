@@ -7,7 +7,7 @@ namespace ramify {
 
 Cone cone_of(const Anatomy& wood, std::size_t node) {
   const Skeleton& s = wood.skeleton();
-  const double a = wood.start_radius(node);
+  const double a = s.start_radius(node);
   const double b = 0.5 * s.diameter[node];
   const double length = s.length(node);
   const double squares = a * a + a * b + b * b;

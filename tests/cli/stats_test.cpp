@@ -1,6 +1,7 @@
 // `ramify stats` as scripts and people call it.
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -164,15 +165,36 @@ TEST_CASE("stats: a tree of one internode has values where they are defined") {
   CHECK(object["by_order"].size() == 1);
 }
 
+TEST_CASE("stats: a scanned tree's cylinders, with Z up, are measured as they are") {
+  const Folder folder;
+  std::ofstream(folder.file("scan.csv")) << " ID, parentID, startX, startY, startZ, endX, endY, endZ, "
+                                            "radius, length, segmentID, parentSegmentID, "
+                                            "branchOrder, branchID\n"
+                                            "0,-1,100,50,10,100,50,12,0.1,2,0,-1,0,0\n"
+                                            "1,0,100,50,12,100,50,13,0.08,1,1,0,0,0\n"
+                                            "2,0,100,50,12,102,50,12,0.05,2,2,0,1,1\n";
+  const Outcome outcome = run_program("stats scan.csv --json --quiet", folder.path().string());
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const ordered_json object = ordered_json::parse(outcome.out);
+  CHECK(object["height"] == Approx(3.0));
+  CHECK(object["crown_radius"] == Approx(0.95 * 2.0));  // between the two tips
+  CHECK(object["dbh"] == Approx(0.2));
+  CHECK(object["branching_angle_mean"] == Approx(90.0));
+  CHECK(object["wood_volume"] == Approx(std::acos(-1.0) * (2 * 0.01 + 0.0064 + 2 * 0.0025)));
+}
+
 TEST_CASE("stats: what is wrong is one line") {
   const Folder folder;
   const std::string where = folder.path().string();
   REQUIRE(run_program("generate s4-fig6 -o a.csv -o a.glb", where).code == 0);
-  check_failure("stats a.glb", where, "a.glb: a mesh has no skeleton (a config, preset or .csv)");
+  check_failure("stats a.glb", where,
+                "a.glb: a mesh has no skeleton (a config, a preset or a file ending in .csv, .txt)");
   check_failure("stats s4-fig6 --csv --json", where, "--csv: not together with --json (one of them)");
   check_failure("stats s4-fig66", where, "s4-fig66: no such file or preset (did you mean 's4-fig6'?)");
   check_failure("stats s4-fig6 none.csv", where, "none.csv: cannot read: No such file or directory");
   check_failure("stats a.csv --seed 3", where, "--seed: a.csv goes with configs only");
+  check_failure("stats s4-fig6 --up z", where, "--up: s4-fig6 is no skeleton file");
   check_failure("stats xm12-fig5 --at-step 2", where, "--at-step: xm12-fig5 has no steps");
   const Outcome none = run_program("stats", where);
   CHECK(none.code == 2);
