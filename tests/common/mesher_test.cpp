@@ -123,6 +123,28 @@ TEST_CASE("mesher: a tree without internodes makes an empty mesh") {
   CHECK(mesh.ranges.empty());
 }
 
+TEST_CASE("mesher: cones are closed, face outwards and fill what the cones and spheres of a pole fill") {
+  const Mesh mesh = build_mesh(pole(10), {.method = MeshMethod::cones, .sides_min = 64, .sides_max = 64});
+  check_sound(mesh);
+  float lowest = 1.0f;
+  float widest = 0.0f;
+  for (const Vec3f& p : mesh.positions) {
+    lowest = std::min(lowest, p.y);
+    widest = std::max(widest, std::hypot(p.x, p.z));
+  }
+  CHECK(lowest == Approx(-0.1).margin(1e-5));
+  CHECK(widest == Approx(0.1).margin(1e-5));
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Mesh random = build_mesh(random_tree(seed, 200), {.method = MeshMethod::cones});
+    check_sound(random);
+    for (std::size_t t = 0; t < random.triangles.size(); ++t) {
+      Vec3f sum(0.0f);
+      for (const std::uint32_t vertex : random.triangles[t]) sum += random.normals[vertex];
+      CHECK(glm::dot(sum, area_vector(random, t)) > 0);
+    }
+  }
+}
+
 TEST_CASE("mesher: the number of threads does not change the mesh") {
   const Skeleton tree = random_tree(1, 5000);
   Mesh one;
