@@ -25,6 +25,10 @@ struct InputFlags {
   RunFlags running;
 };
 
+/// The skeleton of a config or a skeleton file, alive at the step asked for. Throws InputError for a mesh,
+/// and for flags that do not go with the kind of input.
+Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session);
+
 /// Reads, or makes, one tree. Throws InputError for flags that do not go with the kind of input.
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session);
 

@@ -124,7 +124,8 @@ std::size_t Skeleton::axis_count() const {
 double Skeleton::start_radius(std::size_t node) const {
   const auto channel = channels.find(kStartRadius);
   if (channel != channels.end()) return channel->second[node];
-  return 0.5 * (axis[node] == axis[parent[node]] ? diameter[parent[node]] : diameter[node]);
+  const bool founds_axis = is_root(parent[node]) || axis[node] != axis[parent[node]];
+  return 0.5 * diameter[founds_axis ? node : parent[node]];
 }
 
 Skeleton gathered(const Skeleton& skeleton, const std::vector<std::uint32_t>& nodes) {

@@ -57,7 +57,7 @@ struct Skeleton {
   Vec3 along(std::size_t node) const { return position[node] - position[parent[node]]; }
   double length(std::size_t node) const { return glm::length(along(node)); }
   /// Of an internode, metres: its start_radius where that channel is; else its parent's, but its own where it
-  /// founds an axis.
+  /// founds an axis or starts at a root, whose width no table knows.
   double start_radius(std::size_t node) const;
 };
 
