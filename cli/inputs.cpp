@@ -10,7 +10,7 @@
 #include "common/config/job.h"
 #include "common/format/skeleton_table.h"
 #include "common/mesh/gltf.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
 namespace ramify::cli {
@@ -22,10 +22,10 @@ Skeleton cut(Skeleton skeleton, const InputFlags& flags, const std::string& inpu
   return cut_at_step(skeleton, *flags.at_step);
 }
 
-Tree meshed(Skeleton skeleton, const MesherOptions& options, const RunFlags& flags) {
+Tree meshed(Skeleton skeleton, const Looks& looks, std::uint64_t seed, const RunFlags& flags) {
   const ThreadLimit limit(flags.threads);
   Tree tree;
-  tree.mesh = build_mesh(skeleton, options);
+  tree.mesh = make_tree_mesh(skeleton, looks, seed).mesh;
   tree.skeleton = std::move(skeleton);
   return tree;
 }
@@ -40,7 +40,7 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
     throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));
   }
   if (ending == ".csv") {
-    return meshed(cut(read_skeleton_table(read_file(input), input), flags, input), {}, flags.running);
+    return meshed(cut(read_skeleton_table(read_file(input), input), flags, input), {}, 0, flags.running);
   }
   if (is_file) {
     if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
@@ -51,7 +51,7 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
   context.stop = session.stop;
   context.wants_history = flags.at_step.has_value();
   RunResult run = run_with_progress(job, context, flags.running);
-  return meshed(cut(std::move(run.skeleton), flags, input), job.mesher, flags.running);
+  return meshed(cut(std::move(run.skeleton), flags, input), job.looks(), job.seed(), flags.running);
 }
 
 }  // namespace ramify::cli
