@@ -53,7 +53,7 @@ const Data& layer_data(const Results& results, const Output& output) {
 
 Image picture(const Results& results) {
   Renderer renderer;
-  return renderer.render({.mesh = &results.mesh, .skeleton = &results.run.skeleton}, {});
+  return renderer.render({.mesh = &results.tree.mesh, .skeleton = &results.run.skeleton}, {});
 }
 
 }  // namespace
@@ -101,20 +101,20 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
   const fs::path& path = output.path;
   switch (output.form) {
     case OutputForm::glb:
-      write_gltf(results.mesh, provenance, GltfForm::binary, files.add(path));
+      write_gltf(results.tree.mesh, provenance, GltfForm::binary, files.add(path));
       break;
     case OutputForm::gltf:
-      write_gltf(results.mesh, provenance, GltfForm::text, files.add(path));
+      write_gltf(results.tree.mesh, provenance, GltfForm::text, files.add(path));
       break;
     case OutputForm::obj:
-      write_obj(results.mesh, provenance, material_path(path).filename().string(), files.add(path));
-      write_mtl(results.mesh, path.stem().string(), files.add(material_path(path)));
-      for (const ImageFile& image : image_files(results.mesh, path.stem().string())) {
+      write_obj(results.tree.mesh, provenance, material_path(path).filename().string(), files.add(path));
+      write_mtl(results.tree.mesh, path.stem().string(), files.add(material_path(path)));
+      for (const ImageFile& image : image_files(results.tree.mesh, path.stem().string())) {
         files.add(fs::path(path).replace_filename(image.name)) << png_bytes(*image.image);
       }
       break;
     case OutputForm::ply:
-      write_ply(results.mesh, provenance, files.add(path));
+      write_ply(results.tree.mesh, provenance, files.add(path));
       break;
     case OutputForm::skeleton_table:
       write_skeleton_table(results.run.skeleton, files.add(path));
