@@ -24,6 +24,7 @@ enum class Stream : std::uint64_t {
   light,        // pathplan: what the light deals out, by level
   turn,         // pathplan: of a guiding vector, by node
   spheres,      // pathplan: the seed of the spheres that refine a crown
+  projection,   // analysis: the directions of the scatter distance
 };
 
 class Rng {
