@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "common/base/errors.h"
 
@@ -12,10 +13,10 @@ namespace ramify {
 namespace {
 
 /// Copies `values` to the end of the model's buffer and describes them; returns the accessor's index.
-template <class T>
-int add_accessor(tinygltf::Model& model, const std::vector<T>& values, int target, int type, int component) {
+template <class Values>
+int add_accessor(tinygltf::Model& model, const Values& values, int target, int type, int component) {
   std::vector<unsigned char>& bytes = model.buffers[0].data;
-  const std::size_t size = values.size() * sizeof(T);
+  const std::size_t size = values.size() * sizeof(values[0]);
   tinygltf::BufferView view;
   view.buffer = 0;
   view.byteOffset = bytes.size();
@@ -29,12 +30,12 @@ int add_accessor(tinygltf::Model& model, const std::vector<T>& values, int targe
   accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
   accessor.componentType = component;
   accessor.type = type;
-  accessor.count = values.size() * sizeof(T) / (4 * tinygltf::GetNumComponentsInType(type));
+  accessor.count = values.size() * sizeof(values[0]) / (4 * tinygltf::GetNumComponentsInType(type));
   model.accessors.push_back(accessor);
   return static_cast<int>(model.accessors.size()) - 1;
 }
 
-void set_bounds(tinygltf::Accessor& accessor, const std::vector<Vec3f>& positions) {
+void set_bounds(tinygltf::Accessor& accessor, std::span<const Vec3f> positions) {
   Vec3f low = positions.front();
   Vec3f high = positions.front();
   for (const Vec3f& p : positions) {
