@@ -96,7 +96,7 @@ int add_accessor(tinygltf::Model& model, int view, std::size_t count, int type, 
 }
 
 template <class T>
-int add_attribute(tinygltf::Model& model, BinaryPart& binary, const std::vector<T>& values,
+int add_attribute(tinygltf::Model& model, BinaryPart& binary, const BulkVector<T>& values,
                   const Window& window, int type) {
   const T* first = values.data() + window.first;
   const std::size_t bytes = window.count * sizeof(T);

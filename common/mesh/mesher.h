@@ -1,6 +1,4 @@
-// Skeleton to mesh: a tube an axis, with a ring of vertices at each node. Rings are carried along the axis by
-// parallel transport, so that tubes do not twist; neighbouring internodes share their ring, so that shading
-// is smooth along a branch.
+// Skeleton to mesh, by one of several methods; each stands in a file of its own.
 #pragma once
 
 #include "common/config/field.h"
@@ -9,19 +7,25 @@
 
 namespace ramify {
 
-enum class MeshMethod { smooth };
+enum class MeshMethod { smooth, cones };
+
+enum class CentreLine {
+  polyline,    // straight between the nodes, with rounded bends
+  catmull_rom  // a curve through the nodes
+};
 
 struct MesherOptions {
   MeshMethod method = MeshMethod::smooth;
-  int sides_min = 4;   // of the thinnest twigs
-  int sides_max = 12;  // of the thickest axis
+  CentreLine centre_line = CentreLine::polyline;
+  int sides_min = 3;        // of the thinnest twigs
+  int sides_max = 12;       // of the thickest axis
+  double root_flare = 0.8;  // how much wider the trunk is at the ground, of its own radius
 
   static const Table& fields();
 };
 
-/// A lateral's tube starts at its parent's centre line with its own first radius, so no gap shows at a fork;
-/// a root's end is closed flat and every tip by a short cone. All triangles have the one material "bark". A
-/// skeleton without internodes gives an empty mesh. O(n), on all threads.
+/// The wood of a tree by options.method. All triangles have the one material "bark". A skeleton without
+/// internodes gives an empty mesh.
 Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options);
 
 }  // namespace ramify

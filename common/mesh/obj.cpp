@@ -38,7 +38,7 @@ void write_lines(std::size_t count, std::size_t row_bytes, std::ostream& out, Pu
 }
 
 template <int Places, class Vector>
-void write_vectors(const std::vector<Vector>& values, std::string_view key, std::ostream& out) {
+void write_vectors(const BulkVector<Vector>& values, std::string_view key, std::ostream& out) {
   const std::size_t row_bytes = key.size() + 1 + Vector::length() * (decimal::kMaxLength + 1);
   write_lines(values.size(), row_bytes, out, [&](std::size_t i, char* to) {
     to = std::copy(key.begin(), key.end(), to);

@@ -1,0 +1,194 @@
+#include "common/mesh/cones.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "common/base/parallel.h"
+#include "common/mesh/wood.h"
+
+namespace ramify {
+namespace {
+
+/// How the parts of one node lie: its sphere, and the cone from its parent.
+struct NodePart {
+  Vec3 along;  // unit, of the internode
+  Vec3 side;   // unit, perpendicular to it: where u is 0
+  double v = 0.0;
+  double base_radius = 0.0;  // of the cone
+  bool has_cone = false;
+  std::uint32_t sides = 0;
+  std::size_t first_vertex = 0;
+  std::size_t first_triangle = 0;
+};
+
+/// Circles of latitude of a sphere, its poles not counted: its facets are about square.
+std::uint32_t latitudes(const NodePart& part) {
+  return std::max<std::uint32_t>(1, part.sides / 2 - 1);
+}
+
+// A ring repeats its first vertex at the end, where u jumps from 1 to 0; a pole has a vertex a side.
+std::size_t vertex_count(const NodePart& part) {
+  const std::size_t rings = latitudes(part) + (part.has_cone ? 2 : 0);
+  return rings * (part.sides + 1) + 2 * part.sides;
+}
+
+std::size_t triangle_count(const NodePart& part) {
+  const std::size_t bands = latitudes(part) - 1 + (part.has_cone ? 1 : 0);
+  return bands * part.sides * 2 + 2 * part.sides;
+}
+
+double radius(const Skeleton& skeleton, std::size_t node, double thinnest) {
+  return std::max(0.5 * skeleton.diameter[node], thinnest);
+}
+
+/// Frames are carried along each axis, so that bark does not jump from one cone to the next.
+std::vector<NodePart> plan_parts(const Skeleton& skeleton, const MesherOptions& options) {
+  const double thinnest = thinnest_radius(skeleton);
+  const double greatest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
+  std::vector<NodePart> parts(skeleton.node_count());
+  for (std::size_t node = 0; node < parts.size(); ++node) {
+    NodePart& part = parts[node];
+    part.sides = side_count(skeleton.diameter[node], greatest, options);
+    part.along = kUp;
+    if (skeleton.is_root(node)) {
+      part.side = any_perpendicular(kUp);
+      continue;
+    }
+    const std::uint32_t parent = skeleton.parent[node];
+    const double length = skeleton.length(node);
+    const double end_radius = radius(skeleton, node, thinnest);
+    const bool goes_on = skeleton.axis[node] == skeleton.axis[parent];
+    part.base_radius = goes_on ? radius(skeleton, parent, thinnest) : end_radius;
+    part.along = normalized_or(skeleton.along(node), parts[parent].along, thinnest);
+    part.side = transported(parts[parent].side, parts[parent].along, part.along);
+    part.v = length / (std::numbers::pi * (part.base_radius + end_radius));
+    if (goes_on) part.v += parts[parent].v;
+    part.has_cone = length > std::abs(part.base_radius - end_radius) + thinnest;
+  }
+  return parts;
+}
+
+/// Writes the parts of one node into their place in the mesh.
+class PartBuilder {
+ public:
+  PartBuilder(const Skeleton& skeleton, std::size_t node, const NodePart& part, double end_radius, Mesh& mesh)
+      : skeleton_(skeleton),
+        node_(static_cast<std::uint32_t>(node)),
+        part_(part),
+        end_radius_(end_radius),
+        mesh_(mesh),
+        vertex_(part.first_vertex),
+        triangle_(part.first_triangle) {}
+
+  void build() {
+    if (part_.has_cone) add_cone();
+    add_sphere();
+  }
+
+ private:
+  Vec3 outwards(double turn) const {
+    const double angle = 2.0 * std::numbers::pi * turn / part_.sides;
+    return part_.side * std::cos(angle) + glm::cross(part_.along, part_.side) * std::sin(angle);
+  }
+
+  void add_vertex(const Vec3& center, double radius, const Vec3& normal, double u, double v) {
+    mesh_.positions[vertex_] = Vec3f(center + radius * normal);
+    mesh_.normals[vertex_] = glm::normalize(Vec3f(normal));
+    mesh_.uvs[vertex_] = {static_cast<float>(u), static_cast<float>(v)};
+    mesh_.internodes[vertex_++] = node_;
+  }
+
+  /// A circle on a sphere, at the height sine * radius above its center.
+  void add_circle(const Vec3& center, double radius, double sine, double v) {
+    const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
+    for (std::uint32_t i = 0; i <= part_.sides; ++i) {
+      add_vertex(center, radius, outwards(i % part_.sides) * cosine + part_.along * sine,
+                 static_cast<double>(i) / part_.sides, v);
+    }
+  }
+
+  void add_triangle(std::size_t a, std::size_t b, std::size_t c) {
+    mesh_.triangles[triangle_++] = {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                    static_cast<std::uint32_t>(c)};
+  }
+
+  void join_circles(std::size_t low, std::size_t high) {
+    for (std::uint32_t i = 0; i < part_.sides; ++i) {
+      add_triangle(low + i, low + i + 1, high + i + 1);
+      add_triangle(low + i, high + i + 1, high + i);
+    }
+  }
+
+  /// Between the circles in which a cone touches both spheres.
+  void add_cone() {
+    const std::uint32_t parent = skeleton_.parent[node_];
+    const double length = skeleton_.length(node_);
+    const double sine = (part_.base_radius - end_radius_) / length;
+    const double girth = std::numbers::pi * (part_.base_radius + end_radius_);
+    const std::size_t low = vertex_;
+    add_circle(skeleton_.position[parent], part_.base_radius, sine, part_.v - length / girth);
+    const std::size_t high = vertex_;
+    add_circle(skeleton_.position[node_], end_radius_, sine, part_.v);
+    join_circles(low, high);
+  }
+
+  /// Its poles lie along the internode, so that its corners meet those of the cone.
+  void add_sphere() {
+    const Vec3& center = skeleton_.position[node_];
+    const std::uint32_t bands = latitudes(part_) + 1;
+    const std::size_t lowest = vertex_;
+    for (std::uint32_t band = 1; band < bands; ++band) {
+      const double latitude = std::numbers::pi * (static_cast<double>(band) / bands - 0.5);
+      add_circle(center, end_radius_, std::sin(latitude), v_at(latitude));
+      if (band > 1) join_circles(vertex_ - 2 * (part_.sides + 1), vertex_ - (part_.sides + 1));
+    }
+    const std::size_t highest = vertex_ - (part_.sides + 1);
+    for (std::uint32_t i = 0; i < part_.sides; ++i) {
+      add_triangle(vertex_, lowest + i + 1, lowest + i);
+      add_pole(-1.0, i);
+      add_triangle(highest + i, highest + i + 1, vertex_);
+      add_pole(1.0, i);
+    }
+  }
+
+  /// An arc as long as the girth is one unit of v.
+  double v_at(double latitude) const { return part_.v + latitude / (2.0 * std::numbers::pi); }
+
+  void add_pole(double sign, std::uint32_t side) {
+    add_vertex(skeleton_.position[node_], end_radius_, part_.along * sign, (side + 0.5) / part_.sides,
+               v_at(sign * std::numbers::pi / 2.0));
+  }
+
+  const Skeleton& skeleton_;
+  std::uint32_t node_;
+  const NodePart& part_;
+  double end_radius_;
+  Mesh& mesh_;
+  std::size_t vertex_;
+  std::size_t triangle_;
+};
+
+}  // namespace
+
+Mesh cones_mesh(const Skeleton& skeleton, const MesherOptions& options) {
+  if (skeleton.internode_count() == 0) return {};
+  std::vector<NodePart> parts = plan_parts(skeleton, options);
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  for (NodePart& part : parts) {
+    part.first_vertex = vertices;
+    part.first_triangle = triangles;
+    vertices += vertex_count(part);
+    triangles += triangle_count(part);
+  }
+  Mesh mesh = wood_of_size(vertices, triangles);
+  const double thinnest = thinnest_radius(skeleton);
+  parallel_for(parts.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t node = begin; node < end; ++node) {
+      PartBuilder(skeleton, node, parts[node], radius(skeleton, node, thinnest), mesh).build();
+    }
+  });
+  return mesh;
+}
+
+}  // namespace ramify

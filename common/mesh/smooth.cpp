@@ -1,0 +1,292 @@
+#include "common/mesh/smooth.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "common/base/parallel.h"
+#include "common/mesh/tube_plan.h"
+#include "common/mesh/wood.h"
+
+namespace ramify {
+namespace {
+
+constexpr std::size_t kGrain = 256;
+
+// Of a round tip, in radii of its branch: where its ring stands, how wide it is, and where it ends.
+constexpr double kTipRing = 0.6;
+constexpr double kTipRingRadius = 0.75;
+constexpr double kTipLength = 1.0;
+constexpr double kPointedTipLength = 2.0;
+
+/// Points of a circle of so many sides, one a side. O(1) after the first call.
+const Vec2f* unit_circle(std::uint32_t sides) {
+  constexpr std::uint32_t most = 128;
+  struct Circles {
+    std::array<Vec2f, most*(most + 1) / 2> points;
+    Circles() {
+      for (std::uint32_t n = 1; n <= most; ++n) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const double angle = 2.0 * std::numbers::pi * i / n;
+          points[n * (n - 1) / 2 + i] = {static_cast<float>(std::cos(angle)),
+                                         static_cast<float>(std::sin(angle))};
+        }
+      }
+    }
+  };
+  static const Circles circles;
+  return &circles.points[sides * (sides - 1) / 2];
+}
+
+/// Writes tubes into their parts of the mesh, one after the other.
+class TubeWriter {
+ public:
+  TubeWriter(const TubePlan& plan, Mesh& mesh) : plan_(plan), mesh_(mesh) {}
+
+  void write(const Tube& tube) {
+    tube_ = &tube;
+    collect_knots(plan_, tube, knots_);
+    Fork fork;
+    if (!tube.is_closed) {
+      fork = fork_at(plan_, tube);
+      move_base(fork);
+    }
+    points_.clear();
+    flare_ = trace_tube(plan_, tube, knots_, points_);
+    vertex_ = tube.first_vertex;
+    triangle_ = tube.first_triangle;
+    along_ = knots_[0].along;
+    side_ = any_perpendicular(along_);
+    v_ = 0.0;
+    from_base_ = 0.0;
+    if (tube.collar > 0) write_collar(fork);
+    write_rings();
+    write_tip();
+    if (tube.is_closed) write_flat_end();
+  }
+
+ private:
+  void move_base(const Fork& fork) {
+    knots_[0].position = fork.center;
+    measure(knots_);
+    if (tube_->collar > 0) knots_[1].room *= kRoomBesideCollar;
+  }
+
+  void set_vertex(std::size_t vertex, const Vec3& position, const Vec3& normal, double u, double v,
+                  std::uint32_t node) {
+    mesh_.positions[vertex] = Vec3f(position);
+    mesh_.normals[vertex] = glm::normalize(Vec3f(normal));
+    mesh_.uvs[vertex] = {static_cast<float>(u), static_cast<float>(v)};
+    mesh_.internodes[vertex] = node;
+  }
+
+  void add_triangle(std::size_t a, std::size_t b, std::size_t c) {
+    mesh_.triangles[triangle_++] = {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                    static_cast<std::uint32_t>(c)};
+  }
+
+  /// Joins two rings; the lower one may have twice as many sides.
+  void join(std::size_t low, std::uint32_t low_sides, std::size_t high, std::uint32_t high_sides) {
+    if (low_sides == high_sides) {
+      for (std::uint32_t i = 0; i < low_sides; ++i) {
+        add_triangle(low + i, low + i + 1, high + i + 1);
+        add_triangle(low + i, high + i + 1, high + i);
+      }
+      return;
+    }
+    for (std::uint32_t i = 0; i < high_sides; ++i) {
+      add_triangle(low + 2 * i, low + 2 * i + 1, high + i);
+      add_triangle(low + 2 * i + 1, high + i + 1, high + i);
+      add_triangle(low + 2 * i + 1, low + 2 * i + 2, high + i + 1);
+    }
+  }
+
+  /// The rings from the parent's surface to the lateral's own.
+  void write_collar(const Fork& fork) {
+    const Knot& end = knots_[1];
+    const std::uint32_t sides = tube_->sides;
+    const double radius = knots_[0].radius;
+    Lateral lateral{.along = along_, .length = end.length, .radius = radius};
+    if (plan_.line == CentreLine::catmull_rom)
+      lateral.bow = spline_tangent(knots_, 1) - end.along * end.length;
+    // A corner in the plane of the fork: the collar is the same on both sides.
+    const Vec3 up = fork.along - along_ * glm::dot(fork.along, along_);
+    side_ = normalized_or(up, side_, 1e-3);
+    side_ = glm::normalize(side_ - along_ * glm::dot(side_, along_));
+
+    const Vec3 across = glm::cross(along_, side_);
+    const Vec2f* circle = unit_circle(sides);
+    const double girth = 2.0 * std::numbers::pi * radius;
+    const bool shows_parent = !plan_.skeleton->is_root(fork.node);
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+      const Vec2f& turn = circle[i % sides];
+      const CollarLine line = collar_line(fork, lateral, side_ * double{turn.x} + across * double{turn.y});
+      const double top = glm::dot(line.top - fork.center, along_);
+      const double length = glm::length(line.crotch - line.foot) + glm::length(line.top - line.crotch);
+      for (std::uint32_t ring = 0; ring <= tube_->collar; ++ring) {
+        const double t = static_cast<double>(ring) / tube_->collar;
+        const SurfacePoint point = line.at(t);
+        // What grows over a branch's base is its parent's wood.
+        const std::uint32_t node = ring == 0 && shows_parent ? fork.node : end.node;
+        set_vertex(vertex_ + ring * (sides + 1) + i, point.position, point.normal,
+                   static_cast<double>(i) / sides, (top - (1.0 - t) * length) / girth, node);
+      }
+    }
+    for (std::uint32_t ring = 0; ring < tube_->collar; ++ring) {
+      join(vertex_ + ring * (sides + 1), sides, vertex_ + (ring + 1) * (sides + 1), sides);
+    }
+    vertex_ += (tube_->collar + 1) * (sides + 1);
+  }
+
+  /// How fast the tube narrows at a point: lost radius a metre.
+  double taper(std::size_t i) const {
+    const LinePoint& low = points_[i == 0 ? 0 : i - 1];
+    const LinePoint& high = points_[std::min(i + 1, points_.size() - 1)];
+    const double length = glm::length(high.position - low.position);
+    return length > plan_.thinnest ? (low.radius - high.radius) / length : 0.0;
+  }
+
+  void write_rings() {
+    const std::size_t count = points_.size() - (tube_->is_pointed ? 1 : 0);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const LinePoint& point = points_[i];
+      if (i > 0) {
+        const double length = glm::length(point.position - points_[i - 1].position);
+        v_ += length / (std::numbers::pi * (point.radius + points_[i - 1].radius));
+        from_base_ += length;
+        side_ = transported(side_, along_, point.along);
+        along_ = point.along;
+      }
+      if (i >= count || (i == 0 && tube_->collar > 0)) continue;
+      const std::size_t ring = vertex_;
+      const bool is_wide = i < tube_->flare_rings;
+      const std::uint32_t sides = tube_->sides * (is_wide ? 2 : 1);
+      // The first ring shows the same internode as the one above it.
+      const std::uint32_t node = i == 0 ? knots_[1].node : point.node;
+      if (is_wide) {
+        write_flared_ring(point, sides, node);
+      } else {
+        write_ring(point, taper(i), node);
+      }
+      if (i > 0) {
+        const std::uint32_t low_sides = tube_->sides * (i <= tube_->flare_rings ? 2 : 1);
+        join(ring - low_sides - 1, low_sides, ring, sides);
+      }
+    }
+  }
+
+  void write_ring(const LinePoint& point, double slope, std::uint32_t node) {
+    const std::uint32_t sides = tube_->sides;
+    const Vec3 across = glm::cross(along_, side_);
+    const double shorten = 1.0 / std::sqrt(1.0 + slope * slope);
+    const Vec3f center(point.position);
+    const Vec3f side_offset(side_ * point.radius);
+    const Vec3f across_offset(across * point.radius);
+    const Vec3f lean(along_ * (slope * shorten));
+    const Vec3f side_normal(side_ * shorten);
+    const Vec3f across_normal(across * shorten);
+    const Vec2f* circle = unit_circle(sides);
+    const float step = 1.0f / static_cast<float>(sides);
+    const auto v = static_cast<float>(v_);
+    Vec3f* positions = &mesh_.positions[vertex_];
+    Vec3f* normals = &mesh_.normals[vertex_];
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      positions[i] = center + side_offset * circle[i].x + across_offset * circle[i].y;
+      normals[i] = lean + side_normal * circle[i].x + across_normal * circle[i].y;
+    }
+    positions[sides] = positions[0];
+    normals[sides] = normals[0];
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+      mesh_.uvs[vertex_ + i] = {static_cast<float>(i) * step, v};
+      mesh_.internodes[vertex_ + i] = node;
+    }
+    vertex_ += sides + 1;
+  }
+
+  void write_flared_ring(const LinePoint& point, std::uint32_t sides, std::uint32_t node) {
+    const Vec3 across = glm::cross(along_, side_);
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * (i % sides) / sides;
+      const Vec3 outwards = side_ * std::cos(angle) + across * std::sin(angle);
+      const Vec3 around = across * std::cos(angle) - side_ * std::sin(angle);
+      const RootFlare::Widening wide = flare_.at(from_base_ / flare_.height, angle);
+      const Vec3 normal = outwards - around * (wide.by_angle / wide.factor) -
+                          along_ * (wide.by_share * point.radius / flare_.height);
+      set_vertex(vertex_++, point.position + outwards * (point.radius * wide.factor), normal,
+                 static_cast<double>(i) / sides, v_, node);
+    }
+  }
+
+  /// Rounded, or a cone. Its point has a vertex for each side, so that shading runs round it.
+  void write_tip() {
+    const LinePoint last = points_.back();
+    const std::uint32_t sides = tube_->sides;
+    double length = tube_->is_pointed ? 0.0 : kPointedTipLength * last.radius;
+    if (tube_->has_round_tip()) {
+      const double v = v_;
+      LinePoint ring = last;
+      ring.position += along_ * (kTipRing * last.radius);
+      ring.radius *= kTipRingRadius;
+      v_ += kTipRing / (2.0 * std::numbers::pi);
+      write_ring(ring, 1.0, last.node);
+      join(vertex_ - 2 * (sides + 1), sides, vertex_ - (sides + 1), sides);
+      v_ = v;
+      length = kTipLength * last.radius;
+    }
+    const std::size_t ring = vertex_ - (sides + 1);
+    const Vec3 apex = last.position + along_ * length;
+    const double v = v_ + length / (2.0 * std::numbers::pi * last.radius);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const Vec3 between = Vec3(mesh_.normals[ring + i]) + Vec3(mesh_.normals[ring + i + 1]);
+      const Vec3 sideways = normalized_or(between, along_);
+      add_triangle(ring + i, ring + i + 1, vertex_);
+      set_vertex(vertex_++, apex, tube_->is_pointed ? sideways : sideways + along_, (i + 0.5) / sides, v,
+                 last.node);
+    }
+  }
+
+  /// Closes a trunk's base with a fan that faces down.
+  void write_flat_end() {
+    const std::uint32_t sides = tube_->sides * (tube_->flare_rings > 0 ? 2 : 1);
+    const std::size_t ring = tube_->first_vertex;
+    const std::size_t center = vertex_;
+    const Vec3 down = -knots_[0].along;
+    const std::uint32_t node = knots_[1].node;
+    set_vertex(vertex_++, knots_[0].position, down, 0.5, 0.0, node);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const Vec2f uv = mesh_.uvs[ring + i];
+      set_vertex(vertex_++, Vec3(mesh_.positions[ring + i]), down, uv.x, uv.y, node);
+      add_triangle(center, center + 1 + (i + 1) % sides, center + 1 + i);
+    }
+  }
+
+  const TubePlan& plan_;
+  Mesh& mesh_;
+  const Tube* tube_ = nullptr;
+  std::vector<Knot> knots_;  // scratch, like the two below
+  std::vector<LinePoint> points_;
+  RootFlare flare_;
+  std::size_t vertex_ = 0;  // the next one
+  std::size_t triangle_ = 0;
+  Vec3 along_ = kUp;  // of the last ring
+  Vec3 side_ = kUp;
+  double v_ = 0.0;
+  double from_base_ = 0.0;
+};
+
+}  // namespace
+
+Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options) {
+  if (skeleton.internode_count() == 0) return {};
+  const TubePlan plan = plan_tubes(skeleton, options);
+  Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count);
+  parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    TubeWriter writer(plan, mesh);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (plan.tubes[i].rings > 0) writer.write(plan.tubes[i]);
+    }
+  });
+  return mesh;
+}
+
+}  // namespace ramify

@@ -1,0 +1,52 @@
+#include "common/mesh/wood.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ramify {
+namespace {
+
+// The bark of most trees, linear RGB.
+constexpr Vec3f kBarkColor(0.17f, 0.12f, 0.085f);
+
+// Of the greatest coordinate: some twenty steps of a float there.
+constexpr double kThinnestShare = 2e-6;
+
+Material bark_material() {
+  Material bark;
+  bark.name = "bark";
+  bark.color = kBarkColor;
+  return bark;
+}
+
+}  // namespace
+
+Mesh wood_of_size(std::size_t vertices, std::size_t triangles) {
+  Mesh mesh;
+  mesh.positions.resize(vertices);
+  mesh.normals.resize(vertices);
+  mesh.uvs.resize(vertices);
+  mesh.internodes.resize(vertices);
+  mesh.triangles.resize(triangles);
+  if (triangles > 0) {
+    mesh.materials.push_back(bark_material());
+    mesh.ranges.push_back({0, 0, triangles});
+  }
+  return mesh;
+}
+
+std::uint32_t side_count(double diameter, double greatest, const MesherOptions& options) {
+  const double share = greatest > 0 ? std::sqrt(diameter / greatest) : 1.0;
+  const int sides = static_cast<int>(std::lround(options.sides_max * share));
+  return static_cast<std::uint32_t>(std::clamp(sides, options.sides_min, options.sides_max));
+}
+
+double thinnest_radius(const Skeleton& skeleton) {
+  double greatest = 0.0;
+  for (const Vec3& p : skeleton.position) {
+    greatest = std::max({greatest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return std::max(greatest, 1e-3) * kThinnestShare;
+}
+
+}  // namespace ramify

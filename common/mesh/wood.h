@@ -1,0 +1,25 @@
+// What the mesh methods that sweep rings along branches have in common.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "common/mesh/mesh.h"
+#include "common/mesh/mesher.h"
+#include "common/skeleton/skeleton.h"
+
+namespace ramify {
+
+/// A mesh with room for so many vertices and triangles of bark, to be filled in place; without triangles it
+/// has no material.
+Mesh wood_of_size(std::size_t vertices, std::size_t triangles);
+
+/// Sides of a tube that is `diameter` thick in a tree whose thickest wood is `greatest`: in proportion to the
+/// root of the width, so that the error of the silhouette is spread evenly.
+std::uint32_t side_count(double diameter, double greatest, const MesherOptions& options);
+
+/// Metres; wood that is thinner is drawn as thick as this, since float positions could not keep its sides
+/// apart.
+double thinnest_radius(const Skeleton& skeleton);
+
+}  // namespace ramify
