@@ -110,7 +110,7 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
       write_obj(results.tree.mesh, provenance, material_path(path).filename().string(), files.add(path));
       write_mtl(results.tree.mesh, path.stem().string(), files.add(material_path(path)));
       for (const ImageFile& image : image_files(results.tree.mesh, path.stem().string())) {
-        files.add(fs::path(path).replace_filename(image.name)) << png_bytes(*image.image);
+        files.add(fs::path(path).replace_filename(image.name)) << png_bytes(image.image);
       }
       break;
     case OutputForm::ply:

@@ -187,7 +187,7 @@ Ink blade_ink(LeafShape shape, double x, double t) {
   const double to_vein = (rank - std::round(rank)) * spacing;
   const double veins = 0.16 * line(to_vein, 0.006) * std::min(1.0, away / 0.01) + 0.24 * line(away, 0.007);
   const double between = 0.06 * std::cos(2.0 * std::numbers::pi * rank);
-  return {0.74 + veins - between - 0.10 * away / greatest_half_width(shape), away - width};
+  return {0.84 + veins - between - 0.10 * away / greatest_half_width(shape), away - width};
 }
 
 /// A straight needle on the picture of a tuft.

@@ -232,6 +232,9 @@ const Table& LeafOptions::fields() {
 
 std::vector<Leaf> place_leaves(const Skeleton& skeleton, const LeafOptions& options, std::uint64_t seed,
                                int lod) {
+  if (options.max_age > 0 && skeleton.birth_step.empty()) {
+    throw InputError("leaves.max_age: the tree has no steps (0: wood of any age)");
+  }
   const double spacing = spacing_at(options, lod);
   const Carried carried = carry_along_axes(skeleton, spacing, seed);
   const std::vector<bool> bears = bearing_wood(skeleton, options);
