@@ -166,6 +166,7 @@ void generate(const GenerateFlags& flags, const Session& session) {
   if (has_mesh) {
     const ThreadLimit limit(flags.running.threads);
     mesh = build_mesh(living(run.skeleton), job.mesher);
+    for (const std::string& warning : mesh.warnings) warn(warning);
     watch.lap("mesh");
   }
   if (flags.at_step > 0) set_steps(job, flags.at_step);  // files say how to make what is in them

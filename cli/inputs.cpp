@@ -26,6 +26,7 @@ Tree meshed(Skeleton skeleton, const MesherOptions& options, const RunFlags& fla
   const ThreadLimit limit(flags.threads);
   Tree tree;
   tree.mesh = build_mesh(skeleton, options);
+  for (const std::string& warning : tree.mesh.warnings) warn(warning);
   tree.skeleton = std::move(skeleton);
   return tree;
 }
