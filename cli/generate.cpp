@@ -169,6 +169,7 @@ void generate(const GenerateFlags& flags, const Session& session) {
   if (has_mesh) {
     const ThreadLimit limit(flags.running.threads);
     tree = make_tree_mesh(living(run.skeleton), job.looks(), job.seed());
+    for (const std::string& warning : tree.mesh.warnings) warn(warning);
     watch.lap("mesh");
   }
   if (flags.at_step > 0) set_steps(job, flags.at_step);  // files say how to make what is in them

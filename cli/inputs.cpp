@@ -78,6 +78,7 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
   const ThreadLimit limit(flags.running.threads);
   Tree tree;
   tree.mesh = make_tree_mesh(grown.skeleton, grown.looks, grown.seed).mesh;
+  for (const std::string& warning : tree.mesh.warnings) warn(warning);
   tree.skeleton = std::move(grown.skeleton);
   return tree;
 }

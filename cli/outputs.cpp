@@ -9,10 +9,13 @@
 #include "common/base/errors.h"
 #include "common/base/image.h"
 #include "common/format/layer_files.h"
+#include "common/format/pov_scene.h"
 #include "common/format/skeleton_table.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/obj.h"
 #include "common/mesh/ply.h"
+#include "common/mesh/stl.h"
+#include "common/skeleton/passes.h"
 #include "common/volume/voxel_file.h"
 #include "viewer/renderer.h"
 
@@ -31,6 +34,8 @@ constexpr std::array kEndings = {
     Ending{".gltf", OutputForm::gltf},
     Ending{".obj", OutputForm::obj},
     Ending{".ply", OutputForm::ply},
+    Ending{".stl", OutputForm::stl},
+    Ending{".pov", OutputForm::pov_scene},
     Ending{".csv", OutputForm::skeleton_table},
     Ending{".png", OutputForm::picture},
     Ending{".vdb", OutputForm::shadow_grid},
@@ -64,8 +69,10 @@ bool Output::needs_mesh() const {
     case OutputForm::gltf:
     case OutputForm::obj:
     case OutputForm::ply:
+    case OutputForm::stl:
     case OutputForm::picture:
       return true;
+    case OutputForm::pov_scene:
     case OutputForm::skeleton_table:
     case OutputForm::shadow_grid:
     case OutputForm::graph:
@@ -115,6 +122,12 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
       break;
     case OutputForm::ply:
       write_ply(results.tree.mesh, provenance, files.add(path));
+      break;
+    case OutputForm::stl:
+      write_stl(results.mesh, provenance, files.add(path));
+      break;
+    case OutputForm::pov_scene:
+      write_pov_scene(living(results.run.skeleton), provenance, files.add(path));
       break;
     case OutputForm::skeleton_table:
       write_skeleton_table(results.run.skeleton, files.add(path));
