@@ -11,7 +11,7 @@
 
 namespace ramify::cli {
 
-enum class OutputForm { glb, gltf, obj, ply, stl, pov_scene, skeleton_table, picture, shadow_grid, graph };
+enum class OutputForm { glb, gltf, obj, ply, stl, pov_scene, skeleton, picture, shadow_grid, graph };
 
 struct Output {
   OutputForm form = OutputForm::glb;

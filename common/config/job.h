@@ -35,8 +35,9 @@ struct Override {
   std::string value;
 };
 
-/// Reads `config`, a preset's name or a file, with what it is based on, then the overrides; checks all of it.
-/// Throws ConfigError, or InputError where there is no such preset or file.
+/// Reads `config`, a preset's name, a TOML file or one that ramify made of a config (.glb, .gltf, .skel.ply),
+/// with what it is based on, then the overrides; checks all of it. Throws ConfigError, or InputError where
+/// there is no such preset or file.
 Job load_job(const EngineRegistry& registry, const std::string& config,
              std::span<const Override> overrides = {});
 
