@@ -32,9 +32,14 @@ Tree meshed(Skeleton skeleton, const MesherOptions& options, const RunFlags& fla
 
 }  // namespace
 
+bool is_config(const std::string& input) {
+  const std::string ending = std::filesystem::path(input).extension().string();
+  return ending != ".csv" && ending != ".glb" && ending != ".gltf";
+}
+
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
   const std::string ending = std::filesystem::path(input).extension().string();
-  const bool is_file = ending == ".csv" || ending == ".glb" || ending == ".gltf";
+  const bool is_file = !is_config(input);
   const std::vector<Override> overrides = flags.configuring.overrides();
   if (is_file && !overrides.empty()) {
     throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));

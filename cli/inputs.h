@@ -23,6 +23,9 @@ struct InputFlags {
   RunFlags running;
 };
 
+/// Whether the input is a preset's name or a config file, by its ending.
+bool is_config(const std::string& input);
+
 /// Reads, or makes, one tree. Throws InputError for flags that do not go with the kind of input.
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session);
 
