@@ -47,6 +47,17 @@ void RunFlags::add_to(CLI::App& command) {
   command.add_flag("--json", is_json, "Print one JSON object instead of the summary");
 }
 
+void add_up_flag(CLI::App& command, SkeletonReading& reading) {
+  const auto set = [&reading](const std::string& axis) {
+    if (axis != "y" && axis != "z") throw InputError(fmt::format("--up: '{}' (y | z)", axis));
+    reading.up = axis == "y" ? UpAxis::y : UpAxis::z;
+  };
+  command
+      .add_option_function<std::string>(
+          "--up", set, "Which coordinate points up in skeleton files read; else as their format has it")
+      ->type_name("y|z");
+}
+
 RunResult run_with_progress(const Job& job, RunContext context, const RunFlags& flags) {
   const ThreadLimit limit(flags.threads);
   for (const std::string& warning : job.warnings) warn(warning);
@@ -61,6 +72,10 @@ RunResult run_with_progress(const Job& job, RunContext context, const RunFlags& 
 
 void warn(const std::string& text) {
   fmt::print(stderr, "ramify: warning: {}\n", text);
+}
+
+void note(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) fmt::print(stderr, "ramify: note: {}\n", text);
 }
 
 }  // namespace ramify::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/config/job.h"
+#include "common/format/skeleton_files.h"
 
 namespace ramify::cli {
 
@@ -30,10 +31,16 @@ struct RunFlags {
   void add_to(CLI::App& command);
 };
 
+/// --up, for commands that read skeleton files.
+void add_up_flag(CLI::App& command, SkeletonReading& reading);
+
 /// Runs a job with progress and its warnings on stderr. Throws Interrupted after Ctrl-C.
 RunResult run_with_progress(const Job& job, RunContext context, const RunFlags& flags);
 
 /// One line "ramify: warning: ..." on stderr.
 void warn(const std::string& text);
+
+/// A line "ramify: note: ..." on stderr for each.
+void note(const std::vector<std::string>& texts);
 
 }  // namespace ramify::cli

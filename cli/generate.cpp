@@ -75,8 +75,9 @@ std::uint64_t peak_memory_bytes() {
 
 using Seconds = std::vector<std::pair<std::string, double>>;
 
-void print_json(const Results& results, bool has_mesh, const std::vector<Output>& outputs,
-                const Seconds& seconds) {
+using Paths = std::vector<std::filesystem::path>;
+
+void print_json(const Results& results, bool has_mesh, const Paths& outputs, const Seconds& seconds) {
   nlohmann::ordered_json object;
   object["engine"] = results.job.engine->name;
   object["preset"] = results.job.name;
@@ -90,9 +91,7 @@ void print_json(const Results& results, bool has_mesh, const std::vector<Output>
   for (const auto& [stage, duration] : seconds) object["seconds"][stage] = duration;
   object["peak_memory_bytes"] = peak_memory_bytes();
   object["outputs"] = nlohmann::json::array();
-  for (const Output& output : outputs) {
-    for (const auto& file : output.files()) object["outputs"].push_back(file.string());
-  }
+  for (const auto& file : outputs) object["outputs"].push_back(file.string());
   for (const ReportGroup& group : results.run.report.groups) {
     for (const auto& [name, value] : group.values) {
       const bool is_whole = value == std::floor(value) && std::abs(value) < 1e15;
@@ -106,8 +105,7 @@ void print_json(const Results& results, bool has_mesh, const std::vector<Output>
   fmt::print("{}\n", object.dump());
 }
 
-void print_summary(const Results& results, bool has_mesh, const std::vector<Output>& outputs,
-                   const Seconds& seconds) {
+void print_summary(const Results& results, bool has_mesh, const Paths& outputs, const Seconds& seconds) {
   const Job& job = results.job;
   Box box;
   for (const Vec3& position : results.run.skeleton.position) box.include(position);
@@ -121,10 +119,8 @@ void print_summary(const Results& results, bool has_mesh, const std::vector<Outp
     fmt::print("\n");
   }
   if (has_mesh) fmt::print("{} triangles\n", grouped(results.mesh.triangles.size()));
-  for (const Output& output : outputs) {
-    for (const auto& file : output.files()) {
-      fmt::print("  {}  {} bytes\n", file.string(), grouped(std::filesystem::file_size(file)));
-    }
+  for (const auto& file : outputs) {
+    fmt::print("  {}  {} bytes\n", file.string(), grouped(std::filesystem::file_size(file)));
   }
   double total = 0.0;
   for (const auto& [stage, duration] : seconds) total += duration;
@@ -173,15 +169,16 @@ void generate(const GenerateFlags& flags, const Session& session) {
   OutputFiles files;
   for (const Output& output : outputs) write_output(output, results, files);
   if (session.stop.stop_requested()) throw Interrupted();
+  const Paths written = files.paths();
   files.commit();
   if (!outputs.empty()) watch.lap("files");
 
   Seconds seconds = run.report.seconds;
   seconds.insert(seconds.end(), watch.seconds().begin(), watch.seconds().end());
   if (flags.running.is_json) {
-    print_json(results, has_mesh, outputs, seconds);
+    print_json(results, has_mesh, written, seconds);
   } else if (!flags.running.is_quiet) {
-    print_summary(results, has_mesh, outputs, seconds);
+    print_summary(results, has_mesh, written, seconds);
   }
 }
 

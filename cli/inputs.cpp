@@ -8,7 +8,7 @@
 #include "common/base/files.h"
 #include "common/base/parallel.h"
 #include "common/config/job.h"
-#include "common/format/skeleton_table.h"
+#include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/mesher.h"
 #include "common/skeleton/passes.h"
@@ -22,41 +22,67 @@ Skeleton cut(Skeleton skeleton, const InputFlags& flags, const std::string& inpu
   return cut_at_step(skeleton, *flags.at_step);
 }
 
-Tree meshed(Skeleton skeleton, const MesherOptions& options, const RunFlags& flags) {
-  const ThreadLimit limit(flags.threads);
-  Tree tree;
-  tree.mesh = build_mesh(skeleton, options);
-  tree.skeleton = std::move(skeleton);
-  return tree;
+/// Flags that change a config, given for a file that holds a finished tree.
+void refuse(const std::vector<Override>& overrides, const std::string& input) {
+  if (overrides.empty()) return;
+  throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));
 }
 
-}  // namespace
-
-bool is_config(const std::string& input) {
+bool is_mesh(const std::string& input) {
   const std::string ending = std::filesystem::path(input).extension().string();
-  return ending != ".csv" && ending != ".glb" && ending != ".gltf";
+  return ending == ".glb" || ending == ".gltf";
 }
 
-Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
-  const std::string ending = std::filesystem::path(input).extension().string();
-  const bool is_file = !is_config(input);
+/// A skeleton and how its config wants it meshed.
+struct Grown {
+  Skeleton skeleton;
+  MesherOptions mesher;
+};
+
+Grown read_grown(const std::string& input, const InputFlags& flags, const Session& session) {
   const std::vector<Override> overrides = flags.configuring.overrides();
-  if (is_file && !overrides.empty()) {
-    throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));
+  if (is_skeleton_file(input)) {
+    refuse(overrides, input);
+    SkeletonFile file = read_skeleton(input, flags.skeleton);
+    if (!flags.running.is_quiet) note(file.notes);
+    return {cut(std::move(file.skeleton), flags, input), {}};
   }
-  if (ending == ".csv") {
-    return meshed(cut(read_skeleton_table(read_file(input), input), flags, input), {}, flags.running);
-  }
-  if (is_file) {
-    if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
-    return {std::nullopt, read_gltf(read_file(input), input)};
-  }
+  if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
   const Job job = load_job(session.registry, input, overrides);
   RunContext context;
   context.stop = session.stop;
   context.wants_history = flags.at_step.has_value();
   RunResult run = run_with_progress(job, context, flags.running);
-  return meshed(cut(std::move(run.skeleton), flags, input), job.mesher, flags.running);
+  return {cut(std::move(run.skeleton), flags, input), job.mesher};
+}
+
+}  // namespace
+
+bool is_config(const std::string& input) {
+  return !is_mesh(input) && !is_skeleton_file(input);
+}
+
+Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
+  if (is_mesh(input)) {
+    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
+                                 input, skeleton_endings()));
+  }
+  return read_grown(input, flags, session).skeleton;
+}
+
+Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
+  if (is_mesh(input)) {
+    refuse(flags.configuring.overrides(), input);
+    if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
+    if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
+    return {std::nullopt, read_gltf(read_file(input), input)};
+  }
+  Grown grown = read_grown(input, flags, session);
+  const ThreadLimit limit(flags.running.threads);
+  Tree tree;
+  tree.mesh = build_mesh(grown.skeleton, grown.mesher);
+  tree.skeleton = std::move(grown.skeleton);
+  return tree;
 }
 
 }  // namespace ramify::cli

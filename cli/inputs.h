@@ -1,4 +1,4 @@
-// What commands that show trees can be given: a config or preset, a skeleton table, a mesh.
+// What commands that show trees can be given: a config or preset, a skeleton file, a mesh.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/flags.h"
+#include "common/format/skeleton_files.h"
 #include "common/mesh/mesh.h"
 #include "common/skeleton/skeleton.h"
 
@@ -19,12 +20,17 @@ struct Tree {
 
 struct InputFlags {
   std::optional<std::uint32_t> at_step;
-  ConfigFlags configuring;  // of configs only
+  SkeletonReading skeleton;  // of skeleton files only
+  ConfigFlags configuring;   // of configs only
   RunFlags running;
 };
 
-/// Whether the input is a preset's name or a config file, by its ending.
+/// Whether the input is a preset's name or a config file: what no other ending tells of.
 bool is_config(const std::string& input);
+
+/// The skeleton of a config or a skeleton file, alive at the step asked for. Throws InputError for a mesh,
+/// and for flags that do not go with the kind of input.
+Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session);
 
 /// Reads, or makes, one tree. Throws InputError for flags that do not go with the kind of input.
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session);

@@ -112,7 +112,10 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
       break;
     case OutputForm::obj:
       write_obj(results.mesh, provenance, material_path(path).filename().string(), files.add(path));
-      write_mtl(results.mesh, files.add(material_path(path)));
+      write_mtl(results.mesh, path.stem().string(), files.add(material_path(path)));
+      for (const ImageFile& image : image_files(results.mesh, path.stem().string())) {
+        files.add(fs::path(path).replace_filename(image.name)) << png_bytes(*image.image);
+      }
       break;
     case OutputForm::ply:
       write_ply(results.mesh, provenance, files.add(path));

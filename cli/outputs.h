@@ -20,7 +20,7 @@ struct Output {
   bool needs_mesh() const;
   /// The layer that it shows; empty if none.
   std::string layer() const;
-  /// The files it consists of: an .obj has its .mtl, a graph its .nodes.csv.
+  /// The files it consists of for certain: an .obj has its .mtl and may have images, a graph its .nodes.csv.
   std::vector<std::filesystem::path> files() const;
 };
 

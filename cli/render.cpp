@@ -103,8 +103,8 @@ void add_render(CLI::App& program, const Session& session) {
   CLI::App* command = program.add_subcommand("render", "Draw a picture, without window or display");
   command
       ->add_option("input", flags->inputs,
-                   "A preset or TOML file, a skeleton table (.csv) or a mesh (.glb, .gltf); several stand "
-                   "side by side")
+                   "A preset or TOML file, a skeleton (" + skeleton_endings() +
+                       ") or a mesh (.glb, .gltf); several stand side by side")
       ->type_name("INPUT")
       ->required();
   command->add_option("-o,--output", flags->output, "Picture to write")->type_name("PNG")->required();
@@ -129,6 +129,7 @@ void add_render(CLI::App& program, const Session& session) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command->add_flag("--scale", flags->with_scale, "Show a scale bar and a person 1.75 m tall");
+  add_up_flag(*command, flags->reading.skeleton);
   flags->reading.configuring.add_to(*command);
   flags->reading.running.add_to(*command);
   command->callback([flags, &session] { render(*flags, session); });

@@ -1,20 +1,21 @@
-// Numbers as people read them.
+// Numbers and cells as people and spreadsheets read them.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "common/analysis/metrics.h"
 
 namespace ramify::cli {
 
 /// Whole numbers with thousands set apart: "12,345".
-inline std::string grouped(std::uint64_t number) {
-  const std::string digits = std::to_string(number);
-  std::string result;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) result += ',';
-    result += digits[i];
-  }
-  return result;
-}
+std::string grouped(std::uint64_t number);
+
+/// Four digits, counts in full, "-" where there is no value.
+std::string metric_text(const MetricInfo& info, const std::optional<double>& value);
+
+/// A cell of a CSV file, quoted if it must be (RFC 4180).
+std::string csv_cell(const std::string& text);
 
 }  // namespace ramify::cli

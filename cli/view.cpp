@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include "cli/inputs.h"
 #include "cli/outputs.h"
 #include "common/base/errors.h"
+#include "common/format/skeleton_files.h"
 #include "common/mesh/mesher.h"
 #include "common/skeleton/passes.h"
 #include "viewer/view.h"
@@ -25,17 +27,18 @@ struct ViewFlags {
 Opened open(const std::string& input, const ViewFlags& flags, const Session& session) {
   Opened opened{.input = input, .job = {}, .tree = {}, .mesh = {}};
   if (is_config(input)) {
-    opened.job = load_job(session.registry, input, flags.configuring.overrides());
-    return opened;
-  }
-  InputFlags reading;
-  Tree tree = read_tree(input, reading, session);
-  if (tree.skeleton) {
+    // What is opened later comes as it is.
+    const bool is_told = std::find(flags.inputs.begin(), flags.inputs.end(), input) != flags.inputs.end();
+    opened.job = load_job(session.registry, input,
+                          is_told ? flags.configuring.overrides() : std::vector<Override>());
+  } else if (is_skeleton_file(input)) {
+    SkeletonFile file = read_skeleton(input);
     auto run = std::make_shared<RunResult>();
-    run->skeleton = std::move(*tree.skeleton);
+    run->skeleton = std::move(file.skeleton);
+    run->report.warnings = std::move(file.notes);
     opened.tree = std::move(run);
   } else {
-    opened.mesh = std::move(tree.mesh);
+    opened.mesh = read_tree(input, {}, session).mesh;
   }
   return opened;
 }

@@ -91,6 +91,7 @@ TEST_CASE("architecture: a library is named only where it belongs") {
       {"epoxy/", {"viewer/"}},
       {"imgui", {"viewer/"}},
       {"stb/", {"common/base/image.cpp"}},
+      {"libqhull", {"common/analysis/hull.cpp"}},
       {"tiny_gltf", {"common/mesh/"}},
       {"benchmark/", {"bench/"}},
       {"nanoflann", {"bench/plain_"}},

@@ -32,17 +32,13 @@ constexpr Color kInk = color_of(0x2b2b2b);
 // The ground fades out this far from the tree, in parts of the tree's size.
 constexpr double kGroundReach = 3.5;
 
-float linear_of(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
-Vec3f linear_of(const Color& color) {
+Vec3f linear_color(const Color& color) {
   return {linear_of(color.r), linear_of(color.g), linear_of(color.b)};
 }
 
 /// Linear, alpha multiplied in.
 glm::vec4 as_light(const Color& color) {
-  return {linear_of(color) * color.a, color.a};
+  return {linear_color(color) * color.a, color.a};
 }
 
 /// `data` as the vertex attribute at `location` of the vertex array that is bound; `advance` 1: one an
@@ -313,7 +309,7 @@ void Painter::draw_ground(const glm::dmat4& world_to_clip) const {
   ground_.set("world_to_clip", glm::mat4(world_to_clip));
   ground_.set("middle", Vec3f(base_));
   ground_.set("reach", static_cast<float>(ground_reach_));
-  ground_.set("paint", linear_of(options_.background.value_or(kGround)));
+  ground_.set("paint", linear_color(options_.background.value_or(kGround)));
   ground_.set("penumbra", static_cast<float>(kPenumbra));
   set_light(ground_);
   bind_texture(kCoverageUnit, GL_TEXTURE_2D, shadow_map_->coverage());

@@ -15,7 +15,7 @@ namespace ramify {
 void write_skeleton_table(const Skeleton& skeleton, std::ostream& out);
 
 /// Reads a table of these columns, in any order; `text` is the file's content, `name` what to call it in
-/// messages. Rows must follow their parents. Internodes with parentID -1 that start at one point share a root
+/// messages. Rows may come in any order. Internodes with parentID -1 that start at one point share a root
 /// node, as wide as the widest of them. Throws InputError naming the row.
 Skeleton read_skeleton_table(const std::string& text, const std::string& name);
 

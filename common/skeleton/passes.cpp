@@ -20,14 +20,14 @@ std::vector<double> subtree_lengths(const Skeleton& skeleton) {
   return lengths;
 }
 
-}  // namespace
-
-void assign_axes(Skeleton& skeleton) {
+/// Sets axis and order: of a node's children for which may_continue(child) holds, one goes on as its axis.
+template <class MayContinue>
+void assign_axes_where(Skeleton& skeleton, MayContinue may_continue) {
   const std::size_t count = skeleton.node_count();
   const std::vector<double> length = subtree_lengths(skeleton);
   std::vector<std::uint32_t> continuation(count, kNoParent);
   for (std::size_t node = 0; node < count; ++node) {
-    if (skeleton.is_root(node)) continue;
+    if (skeleton.is_root(node) || !may_continue(node)) continue;
     std::uint32_t& best = continuation[skeleton.parent[node]];
     const bool leads = best == kNoParent || skeleton.diameter[node] > skeleton.diameter[best] ||
                        (skeleton.diameter[node] == skeleton.diameter[best] && length[node] > length[best]);
@@ -47,6 +47,16 @@ void assign_axes(Skeleton& skeleton) {
     skeleton.axis[node] = continues ? skeleton.axis[parent] : next_axis++;
     skeleton.order[node] = static_cast<std::uint16_t>(skeleton.order[parent] + (continues ? 0 : 1));
   }
+}
+
+}  // namespace
+
+void assign_axes(Skeleton& skeleton) {
+  assign_axes_where(skeleton, [](std::size_t) { return true; });
+}
+
+void assign_axes_along(Skeleton& skeleton, const std::vector<std::int64_t>& run) {
+  assign_axes_where(skeleton, [&](std::size_t node) { return run[node] == run[skeleton.parent[node]]; });
 }
 
 void assign_orders(Skeleton& skeleton) {

@@ -13,6 +13,11 @@ namespace ramify {
 /// of order + 1. Axes are numbered in the order of their first internodes.
 void assign_axes(Skeleton& skeleton);
 
+/// The same, where a child goes on as its parent's axis only if both have the same number in `run`, one a
+/// node: of measured trees, where the branch or the branch order is known. Orders are counted, a lateral's is
+/// its parent's + 1.
+void assign_axes_along(Skeleton& skeleton, const std::vector<std::int64_t>& run);
+
 /// Sets `order` from `axis` alone: 0 for the axes that start at a root node and go on as its axis, a
 /// lateral's is its parent's + 1.
 void assign_orders(Skeleton& skeleton);

@@ -9,11 +9,11 @@ namespace ramify {
 namespace {
 
 template <class T>
-std::vector<T> kept(const std::vector<T>& values, const std::vector<bool>& keep) {
+std::vector<T> picked(const std::vector<T>& values, const std::vector<std::uint32_t>& nodes) {
   std::vector<T> result;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (keep[i]) result.push_back(values[i]);
-  }
+  if (values.empty()) return result;
+  result.reserve(nodes.size());
+  for (const std::uint32_t node : nodes) result.push_back(values[node]);
   return result;
 }
 
@@ -121,20 +121,36 @@ std::size_t Skeleton::axis_count() const {
   return axes.size();
 }
 
-Skeleton subset(const Skeleton& skeleton, const std::vector<bool>& keep) {
+double Skeleton::start_radius(std::size_t node) const {
+  const auto channel = channels.find(kStartRadius);
+  if (channel != channels.end()) return channel->second[node];
+  const bool founds_axis = is_root(parent[node]) || axis[node] != axis[parent[node]];
+  return 0.5 * diameter[founds_axis ? node : parent[node]];
+}
+
+Skeleton gathered(const Skeleton& skeleton, const std::vector<std::uint32_t>& nodes) {
   Skeleton result;
-  result.position = kept(skeleton.position, keep);
-  result.diameter = kept(skeleton.diameter, keep);
-  result.axis = kept(skeleton.axis, keep);
-  result.order = kept(skeleton.order, keep);
-  result.kind = kept(skeleton.kind, keep);
-  result.birth_step = kept(skeleton.birth_step, keep);
-  result.shed_step = kept(skeleton.shed_step, keep);
-  result.level = kept(skeleton.level, keep);
-  result.light = kept(skeleton.light, keep);
-  result.vigour = kept(skeleton.vigour, keep);
-  for (const auto& [name, values] : skeleton.channels) result.channels[name] = kept(values, keep);
+  result.position = picked(skeleton.position, nodes);
+  result.diameter = picked(skeleton.diameter, nodes);
+  result.axis = picked(skeleton.axis, nodes);
+  result.order = picked(skeleton.order, nodes);
+  result.kind = picked(skeleton.kind, nodes);
+  result.birth_step = picked(skeleton.birth_step, nodes);
+  result.shed_step = picked(skeleton.shed_step, nodes);
+  result.level = picked(skeleton.level, nodes);
+  result.light = picked(skeleton.light, nodes);
+  result.vigour = picked(skeleton.vigour, nodes);
+  for (const auto& [name, values] : skeleton.channels) result.channels[name] = picked(values, nodes);
   result.pipe_model = skeleton.pipe_model;
+  return result;
+}
+
+Skeleton subset(const Skeleton& skeleton, const std::vector<bool>& keep) {
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
+    if (keep[node]) nodes.push_back(static_cast<std::uint32_t>(node));
+  }
+  Skeleton result = gathered(skeleton, nodes);
 
   std::vector<std::uint32_t> renumbered(skeleton.node_count(), kNoParent);
   std::uint32_t next = 0;

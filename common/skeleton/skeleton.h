@@ -17,6 +17,10 @@ enum class Kind : std::uint8_t { stem, root };
 inline constexpr std::uint32_t kNoParent = 0xffffffff;
 inline constexpr std::uint32_t kAlive = 0;  // a shed_step of 0: steps count from 1
 
+/// The channel of a skeleton made of cylinders, as laser-scanned trees are: the radius with which each
+/// internode starts, metres.
+inline constexpr const char* kStartRadius = "start_radius";
+
 /// How an engine's widths were made, where by the pipe model: d^exponent = sum of the children's d^exponent.
 struct PipeModel {
   double exponent = 2.5;
@@ -52,11 +56,17 @@ struct Skeleton {
   /// Of an internode: from its parent to itself, metres.
   Vec3 along(std::size_t node) const { return position[node] - position[parent[node]]; }
   double length(std::size_t node) const { return glm::length(along(node)); }
+  /// Of an internode, metres: its start_radius where that channel is; else its parent's, but its own where it
+  /// founds an axis or starts at a root, whose width no table knows.
+  double start_radius(std::size_t node) const;
 };
 
 /// The part of `skeleton` for which keep[node] is true, in the same order, all attributes with it. A kept
 /// node's parent must be kept. O(n).
 Skeleton subset(const Skeleton& skeleton, const std::vector<bool>& keep);
+
+/// All attributes but `parent`, which is left empty, of nodes[i] as those of node i. O(n).
+Skeleton gathered(const Skeleton& skeleton, const std::vector<std::uint32_t>& nodes);
 
 /// Several trees as one: all root nodes first, then the internodes tree by tree. Axis j of tree i of n
 /// becomes axis j * n + i. All must have the same attributes. O(n).

@@ -112,7 +112,7 @@ TEST_CASE("OBJ: counts, material and config are in the file") {
   CHECK(lines_with(text, "mtllib tree.mtl") == 1);
   CHECK(lines_with(text, "#   seed = 42") == 1);
   std::ostringstream materials;
-  write_mtl(mesh, materials);
+  write_mtl(mesh, "tree", materials);
   CHECK(lines_with(materials.str(), "newmtl bark") == 1);
 }
 

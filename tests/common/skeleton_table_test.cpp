@@ -82,11 +82,11 @@ TEST_CASE("skeleton table: each broken row is one line with file, row and what i
   CHECK(error_of("0,-1,0,0,0,0,1,0,0,1,0,0,,,,,,stem\n") == "t.csv:2: radius: 0 (must be greater than 0)");
   CHECK(error_of("0,-1,0,0,0,0,1,0,0.1,1,0,70000,,,,,,stem\n") ==
         "t.csv:2: branchOrder: '70000' is no whole number in range");
-  CHECK(error_of(good + good) == "t.csv:3: ID: 0 stands in an earlier row too");
+  CHECK(error_of(good + good) == "t.csv:3: ID: 0 stands in line 2 too");
   CHECK(error_of(good + "1,7,0,0,0,0,1,0,0.1,1,0,0,,,,,,stem\n") ==
-        "t.csv:3: parentID: 7 is in no earlier row (rows follow their parent; -1 for none)");
+        "t.csv:3: parentID: 7 is no row's ID (-1 for none)");
   CHECK(error_of("1,1,0,0,0,0,1,0,0.1,1,0,0,,,,,,stem\n") ==
-        "t.csv:2: parentID: 1 is in no earlier row (rows follow their parent; -1 for none)");
+        "t.csv:2: parentID: 1 leads round to this row (a tree has no circle)");
   CHECK(error_of("0,-1,0,0,0,0,1,0,0.1,1,0,0,,,,,,twig\n") == "t.csv:2: kind: 'twig' (stem | root)");
   CHECK(error_of("", "a,b,c\n") ==
         "t.csv:1: no column 'ID' (a skeleton table begins ID,parentID,startX,...)");

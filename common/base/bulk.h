@@ -1,0 +1,45 @@
+// Arrays of many megabytes that are filled in place.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace ramify {
+
+/// Memory in large pages where the system has them: the first touch of a fresh page costs more than all that
+/// is written to it. Freed by free_bulk(). Throws std::bad_alloc.
+void* allocate_bulk(std::size_t bytes);
+void free_bulk(void* memory);
+
+template <class T>
+struct BulkAllocator {
+  using value_type = T;
+
+  BulkAllocator() = default;
+  template <class U>
+  BulkAllocator(const BulkAllocator<U>&) {}
+
+  T* allocate(std::size_t count) { return static_cast<T*>(allocate_bulk(count * sizeof(T))); }
+  void deallocate(T* memory, std::size_t) { free_bulk(memory); }
+
+  /// What resize() adds is left as it is, to be written by whoever asked for it.
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+
+  friend bool operator==(const BulkAllocator&, const BulkAllocator&) { return true; }
+};
+
+/// A vector whose resize(n) does not write the new elements.
+template <class T>
+using BulkVector = std::vector<T, BulkAllocator<T>>;
+
+}  // namespace ramify
