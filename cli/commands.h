@@ -25,6 +25,7 @@ void add_stats(CLI::App& program, const Session& session);
 void add_convert(CLI::App& program);
 void add_presets(CLI::App& program);
 void add_params(CLI::App& program, const Session& session);
+void add_view(CLI::App& program, const Session& session);
 void add_check(CLI::App& program, const Session& session);
 
 }  // namespace ramify::cli

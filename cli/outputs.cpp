@@ -101,14 +101,18 @@ std::vector<fs::path> Output::files() const {
   return {path};
 }
 
+std::string known_endings() {
+  std::vector<std::string_view> endings;
+  for (const Ending& known : kEndings) endings.push_back(known.text);
+  return fmt::format("{}", fmt::join(endings, " "));
+}
+
 Output output_of(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   for (const Ending& known : kEndings) {
     if (is_ending_of(known.text, path)) return {known.form, path};
   }
-  std::vector<std::string_view> endings;
-  for (const Ending& known : kEndings) endings.push_back(known.text);
-  throw InputError(fmt::format("{}: unknown ending '{}' ({})", path, ending, fmt::join(endings, " ")));
+  throw InputError(fmt::format("{}: unknown ending '{}' ({})", path, ending, known_endings()));
 }
 
 void write_output(const Output& output, const Results& results, OutputFiles& files) {

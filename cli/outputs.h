@@ -24,6 +24,9 @@ struct Output {
   std::vector<std::filesystem::path> files() const;
 };
 
+/// ".glb .obj": all that output_of() knows.
+std::string known_endings();
+
 /// Which form a file's ending asks for. Throws InputError naming the endings known.
 Output output_of(const std::string& path);
 

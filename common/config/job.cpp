@@ -156,6 +156,16 @@ Job default_job(const AnyEngine& engine) {
   return job;
 }
 
+Job independent_copy(const Job& job) {
+  Job copy = job;
+  if (job.engine) copy.parameters = job.engine->copy_parameters(job.parameters.get());
+  return copy;
+}
+
+void check(Job& job) {
+  job.warnings = checked(job, {});
+}
+
 Job load_job(const EngineRegistry& registry, const std::string& config, std::span<const Override> overrides) {
   Job job;
   Origins origins;

@@ -44,6 +44,12 @@ Job load_job(const EngineRegistry& registry, const std::string& config,
 /// A job of `engine` with all parameters at their defaults.
 Job default_job(const AnyEngine& engine);
 
+/// A job with parameters of its own: the copy of a Job shares them.
+Job independent_copy(const Job& job);
+
+/// Checks a job whose parameters were changed and sets its warnings. Throws ConfigError.
+void check(Job& job);
+
 /// The table of a whole config of `engine`; its owner is a Job of that engine. `engine` must outlive it.
 Table job_table(const AnyEngine& engine);
 
