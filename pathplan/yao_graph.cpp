@@ -204,9 +204,10 @@ std::vector<Edge> edges_of(std::span<const Vec3> nodes, const EdgeRules& rules, 
 
   // Two nodes that chose each other share one edge, the lower one's. No branch: which do cannot be foreseen.
   const auto has_chosen = [&](std::uint32_t a, std::uint32_t b) {
-    bool has = false;
-    for (const std::uint32_t target : targets[a]) has |= target == b;
-    return has;
+    std::uint32_t found = 0;
+#pragma GCC unroll 1  // unrolled, the compiler would not compare four at a time
+    for (const std::uint32_t target : targets[a]) found += target == b ? 1 : 0;
+    return found != 0;
   };
   std::vector<Edge> edges;
   edges.reserve(nodes.size() * Sectors::kCount * 3 / 4);
