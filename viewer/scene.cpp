@@ -99,7 +99,7 @@ std::vector<ColorBytes> vertex_colors(const Scene& scene, const RenderOptions& o
   if (scene.mesh == nullptr) return {};
   if (options.style == RenderStyle::schematic)
     return std::vector<ColorBytes>(scene.mesh->vertex_count(), kBlack);
-  if (!scene.mesh->colors.empty()) return scene.mesh->colors;
+  if (const auto& own = scene.mesh->colors; !own.empty()) return {own.begin(), own.end()};
   if (shows_materials(*scene.mesh)) {
     return std::vector<ColorBytes>(scene.mesh->vertex_count(), {255, 255, 255, 255});
   }
