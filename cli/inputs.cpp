@@ -59,6 +59,10 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
 
 }  // namespace
 
+bool is_config(const std::string& input) {
+  return !is_mesh(input) && !is_skeleton_file(input);
+}
+
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
   if (is_mesh(input)) {
     throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
@@ -78,6 +82,7 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
   const ThreadLimit limit(flags.running.threads);
   Tree tree;
   tree.mesh = make_tree_mesh(grown.skeleton, grown.looks, grown.seed).mesh;
+  for (const std::string& warning : tree.mesh.warnings) warn(warning);
   tree.skeleton = std::move(grown.skeleton);
   return tree;
 }

@@ -1,4 +1,4 @@
-// glTF, OBJ and PLY files.
+// glTF, OBJ, PLY and STL files.
 
 #include <cmath>
 #include <cstring>
@@ -15,6 +15,7 @@
 #include "common/mesh/mesher.h"
 #include "common/mesh/obj.h"
 #include "common/mesh/ply.h"
+#include "common/mesh/stl.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 #include "tests/catch.h"
@@ -281,4 +282,24 @@ TEST_CASE("PLY: colours stand in every vertex, the config in comments") {
   CHECK(lines_with(header, "comment   seed = 42") == 1);
   CHECK(bytes.size() - body == mesh.vertex_count() * 40 + mesh.triangles.size() * 13);
   CHECK(std::memcmp(bytes.data() + body + 32, mesh.colors[0].data(), 4) == 0);
+}
+
+TEST_CASE("STL: a header that no reader takes for text, then 50 bytes a triangle") {
+  const Mesh mesh = build_mesh(random_tree(3, 700), {});
+  std::ostringstream out;
+  write_stl(mesh, kProvenance, out);
+  const std::string bytes = out.str();
+  CHECK(bytes.rfind("ramify 1.2.3", 0) == 0);
+  REQUIRE(bytes.size() == 84 + 50 * mesh.triangles.size());
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, 4);
+  CHECK(count == mesh.triangles.size());
+  // The last one too: it is in a chunk that is not full.
+  for (const std::size_t t : {std::size_t{0}, mesh.triangles.size() - 1}) {
+    std::array<Vec3f, 4> facet;
+    std::memcpy(facet.data(), bytes.data() + 84 + 50 * t, 48);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(facet[i + 1] == mesh.positions[mesh.triangles[t][i]]);
+    CHECK(std::abs(glm::dot(facet[0], facet[2] - facet[1])) < 1e-4f);
+    CHECK(glm::dot(facet[0], glm::cross(facet[2] - facet[1], facet[3] - facet[1])) > 0.0f);
+  }
 }
