@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,8 +37,8 @@ class Painter {
   /// Adds figure and bar to what was loaded, in the plane through `base` spanned by right and up.
   void load_annotations(const Annotations& annotations, const Vec3& base, const CameraAxes& axes);
 
-  /// Makes the shadows of what was loaded from `scene`; before draw() in the style lit. `map_size`: pixels a
-  /// side. Leaves its own framebuffer bound.
+  /// Makes the shadows of what was loaded from `scene`; before draw() in the style lit, even where it is to
+  /// be without occlusion and there are none. `map_size`: pixels a side. Leaves its own framebuffer bound.
   void cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size);
 
   /// How far the ground reaches around the tree, metres; 0 in styles without one.
@@ -46,12 +47,25 @@ class Painter {
   /// Draws what was loaded, background first.
   void draw(const Camera& camera, const Viewport& viewport);
 
+  /// Draws the tree alone, among what another painter drew through the same camera.
+  void draw_over(const Camera& camera, const Viewport& viewport);
+
  private:
   /// Indices that are drawn in one go.
   struct Range {
     std::size_t first = 0;
     int count = 0;
-    bool is_closed = false;  // so that the triangles' backs are never seen
+    bool is_closed = false;   // so that the triangles' backs are never seen
+    std::size_t surface = 0;  // index into surfaces_
+  };
+
+  /// A material on the GPU.
+  struct Surface {
+    Vec3f color{1.0f};  // linear, times that of the vertices
+    bool is_cutout = false;
+    bool is_thin = false;  // light comes through
+    std::optional<GlTexture> image;
+    std::optional<GlTexture> normal_map;
   };
 
   /// Triangles, or lines, on the GPU.
@@ -61,12 +75,14 @@ class Painter {
     GlBuffer positions;
     GlBuffer normals;  // of lines: where they end
     GlBuffer colors;
+    GlBuffer uvs;
     GlBuffer indices;
     std::vector<Range> ranges;  // of a mesh
     int count = 0;              // of vertices or lines, where there are no ranges
   };
 
   void load_mesh(const Scene& scene);
+  void load_surfaces(const Mesh& mesh);
   void load_lines(const Scene& scene);
   void load_sky_light(const Scene& scene);
   Batch flat_batch(const std::vector<Vec2f>& corners, const CameraAxes& axes) const;
@@ -74,7 +90,8 @@ class Painter {
   void draw_tree(const glm::dmat4& world_to_clip) const;
   void draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const;
   void draw_ground(const glm::dmat4& world_to_clip) const;
-  static void draw_triangles(const Batch& batch);
+  void draw_triangles(const Batch& batch, const GlProgram& program) const;
+  void set_surface(const Surface& surface, const GlProgram& program) const;
   void draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) const;
   void cast(const Batch& batch) const;
   void set_light(const GlProgram& program) const;
@@ -90,6 +107,7 @@ class Painter {
 
   RenderOptions options_;
   Batch tree_;
+  std::vector<Surface> surfaces_;
   std::vector<Vec3f> figure_corners_;
   Batch figure_;
   Batch bar_;

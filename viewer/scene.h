@@ -14,6 +14,7 @@ namespace ramify {
 
 struct Mesh;
 struct Skeleton;
+struct SkyLight;
 
 enum class RenderStyle {
   lit,        // sun, sky, shadow and ground
@@ -27,22 +28,28 @@ struct RenderOptions {
   ViewDirection view;
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
-  std::string color_by;     // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
-  bool with_scale = false;  // a bar with its length and a human figure beside the tree
+  std::string color_by;        // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
+  std::optional<Color> tint;   // all of the tree in this one, whatever color_by says
+  bool with_scale = false;     // a bar with its length and a human figure beside the tree
+  bool with_occlusion = true;  // lit: the sky's light and the sun's are kept out; without, drawn sooner
 };
 
 struct Scene {
   const Mesh* mesh = nullptr;          // null is drawn as an empty one
   const Skeleton* skeleton = nullptr;  // null for a mesh read from a file
+  const SkyLight* sky = nullptr;       // of the mesh, where it was made before; null: made when it is needed
 };
 
 /// Where the tree stands: the lowest root node or, without a skeleton, the middle of the mesh's underside;
 /// the origin for an empty scene. The ground is level with it.
 Vec3 base_of(const Scene& scene);
 
-/// The colour of each vertex in the style lit or schematic: by attribute, else bark by the width (leaves
-/// green) or black. Throws InputError if color_by names what the scene's skeleton lacks, or there is no
-/// skeleton.
+/// Whether the mesh has colours or images of its own, to be shown as they are.
+bool shows_materials(const Mesh& mesh);
+
+/// The colour of each vertex in the style lit or schematic: by attribute, else black or the mesh's own, white
+/// where it has images alone; bark by the width (leaves green) where it has none of these. Throws InputError
+/// if color_by names what the scene's skeleton lacks, or there is no skeleton.
 std::vector<ColorBytes> vertex_colors(const Scene& scene, const RenderOptions& options);
 
 /// The colour of each skeleton node in the style skeleton; by order if color_by is empty. Throws InputError.

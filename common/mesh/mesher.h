@@ -9,7 +9,10 @@
 
 namespace ramify {
 
-enum class MeshMethod { smooth, cones };
+enum class MeshMethod { smooth, cones, watertight };
+
+/// Of a watertight mesh: twigs that its voxels cannot resolve.
+enum class ThinTwigs { leave_out, tubes };
 
 enum class CentreLine {
   polyline,    // straight between the nodes, with rounded bends
@@ -25,6 +28,12 @@ struct MesherOptions {
   int lod = 0;                // level of detail: each has a third of the triangles of the one before
   int max_triangles = 0;      // 0: as many as it takes
   std::string color_by = {};  // an attribute that the vertices show (attribute_colors.h); empty: none
+
+  // watertight
+  double voxel_size = 0.0;  // metres; 0: by the thinnest twig
+  double blend = 1.0;       // how wide forks blend, in radii of the lateral's base
+  double adaptivity = 0.1;  // how far the surface may move to save triangles, in voxels
+  ThinTwigs thin_twigs = ThinTwigs::leave_out;
 
   static const Table& fields();
 };

@@ -86,6 +86,14 @@ std::vector<std::uint16_t> strahler_orders(const Skeleton& skeleton) {
   return order;
 }
 
+double base_radius(const Skeleton& skeleton, std::size_t internode) {
+  const auto channel = skeleton.channels.find("start_radius");
+  if (channel != skeleton.channels.end()) return channel->second[internode];
+  const std::uint32_t parent = skeleton.parent[internode];
+  const bool is_lateral = skeleton.axis[internode] != skeleton.axis[parent];
+  return 0.5 * skeleton.diameter[is_lateral ? internode : parent];
+}
+
 void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model,
                            const std::vector<std::uint32_t>& lost_tips) {
   if (!(model.exponent > 0)) {
@@ -119,6 +127,16 @@ Skeleton cut_at_step(const Skeleton& history, std::uint32_t step, bool with_shed
   past.vigour.clear();
   if (past.pipe_model) assign_pipe_diameters(past, *past.pipe_model);
   return with_shed ? past : living(past);
+}
+
+Skeleton cut_at_level(const Skeleton& skeleton, std::uint32_t level) {
+  std::vector<bool> is_planned(skeleton.node_count());
+  for (std::size_t node = 0; node < is_planned.size(); ++node) {
+    // What grows from a later level goes with it.
+    is_planned[node] =
+        skeleton.is_root(node) || (skeleton.level[node] <= level && is_planned[skeleton.parent[node]]);
+  }
+  return subset(skeleton, is_planned);
 }
 
 Skeleton living(const Skeleton& history) {
