@@ -1,7 +1,6 @@
 // What is to be drawn, and how a picture of it is wanted.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -44,11 +43,6 @@ struct Scene {
 /// Where the tree stands: the lowest root node or, without a skeleton, the middle of the mesh's underside;
 /// the origin for an empty scene. The ground is level with it.
 Vec3 base_of(const Scene& scene);
-
-/// sRGB bytes as the GPU takes them.
-using ColorBytes = std::array<std::uint8_t, 4>;
-
-ColorBytes color_bytes(const Color& color);
 
 /// Whether the mesh has colours or images of its own, to be shown as they are.
 bool shows_materials(const Mesh& mesh);

@@ -62,11 +62,12 @@ std::vector<std::string> color_attributes(const Skeleton& skeleton) {
   return names;
 }
 
-std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name) {
+std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name,
+                                    std::string_view asked_by) {
   const std::vector<std::string> known = color_attributes(skeleton);
   if (std::find(known.begin(), known.end(), name) == known.end()) {
-    throw InputError(
-        fmt::format("--color-by: the tree has no attribute '{}' (it has {})", name, fmt::join(known, ", ")));
+    throw InputError(fmt::format("{}: the tree has no attribute '{}' (it has {})", asked_by, name,
+                                 fmt::join(known, ", ")));
   }
 
   auto [values, scale] = attribute(skeleton, name);
