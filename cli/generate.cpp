@@ -199,10 +199,10 @@ void add_generate(CLI::App& program, const Session& session) {
       ->type_name("CONFIG")
       ->required();
   command
-      ->add_option(
-          "-o,--output", flags->outputs,
-          "File to write, by its ending: .glb .gltf .obj .ply mesh, .csv skeleton, .png picture, .vdb shadow "
-          "(repeatable)")
+      ->add_option("-o,--output", flags->outputs,
+                   "File to write, by its ending: .glb .gltf .obj .ply .stl mesh, .pov scene, .csv skeleton, "
+                   ".png picture, .vdb "
+                   "shadow (repeatable)")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->add_option("--at-step", flags->at_step, "The tree as it was after step K")

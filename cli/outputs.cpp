@@ -124,7 +124,7 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
       write_ply(results.tree.mesh, provenance, files.add(path));
       break;
     case OutputForm::stl:
-      write_stl(results.mesh, provenance, files.add(path));
+      write_stl(results.tree.mesh, provenance, files.add(path));
       break;
     case OutputForm::pov_scene:
       write_pov_scene(living(results.run.skeleton), provenance, files.add(path));
