@@ -206,9 +206,8 @@ void add_generate(CLI::App& program, const Session& session) {
   command
       ->add_option(
           "-o,--output", flags->outputs,
-          "File to write, by its ending: .glb .gltf .obj .ply mesh, .csv .skel.ply .swc .mtg skeleton, .png "
-          "picture, .vdb shadow "
-          "(repeatable)")
+          "File to write, by its ending: .glb .gltf .obj .ply .stl mesh, .csv .skel.ply .swc .mtg skeleton, "
+          ".pov scene, .png picture, .vdb shadow (repeatable)")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->add_option("--at-step", flags->at_step, "The tree as it was after step K")
