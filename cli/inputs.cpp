@@ -16,21 +16,10 @@
 namespace ramify::cli {
 namespace {
 
-Skeleton cut(Skeleton skeleton, const InputFlags& flags, const std::string& input) {
-  if (!flags.at_step) return living(skeleton);
-  if (skeleton.birth_step.empty()) throw InputError(fmt::format("--at-step: {} has no steps", input));
-  return cut_at_step(skeleton, *flags.at_step);
-}
-
 /// Flags that change a config, given for a file that holds a finished tree.
 void refuse(const std::vector<Override>& overrides, const std::string& input) {
   if (overrides.empty()) return;
   throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));
-}
-
-bool is_mesh(const std::string& input) {
-  const std::string ending = std::filesystem::path(input).extension().string();
-  return ending == ".glb" || ending == ".gltf";
 }
 
 /// A skeleton and how its config wants it meshed.
@@ -45,7 +34,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
     refuse(overrides, input);
     SkeletonFile file = read_skeleton(input, flags.skeleton);
     if (!flags.running.is_quiet) note(file.notes);
-    return {cut(std::move(file.skeleton), flags, input), {}};
+    return {living_at(file.skeleton, flags.at_step, input), {}};
   }
   if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
   const Job job = load_job(session.registry, input, overrides);
@@ -53,13 +42,24 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
   context.stop = session.stop;
   context.wants_history = flags.at_step.has_value();
   RunResult run = run_with_progress(job, context, flags.running);
-  return {cut(std::move(run.skeleton), flags, input), job.mesher};
+  return {living_at(run.skeleton, flags.at_step, input), job.mesher};
 }
 
 }  // namespace
 
+bool is_mesh_file(const std::string& input) {
+  const std::string ending = std::filesystem::path(input).extension().string();
+  return ending == ".glb" || ending == ".gltf";
+}
+
+Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input) {
+  if (!step) return living(skeleton);
+  if (skeleton.birth_step.empty()) throw InputError(fmt::format("--at-step: {} has no steps", input));
+  return cut_at_step(skeleton, *step);
+}
+
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
+  if (is_mesh_file(input)) {
     throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
                                  input, skeleton_endings()));
   }
@@ -67,7 +67,7 @@ Skeleton read_living(const std::string& input, const InputFlags& flags, const Se
 }
 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
+  if (is_mesh_file(input)) {
     refuse(flags.configuring.overrides(), input);
     if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
     if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));

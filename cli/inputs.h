@@ -25,6 +25,12 @@ struct InputFlags {
   RunFlags running;
 };
 
+/// True for endings of meshes, which have no skeleton.
+bool is_mesh_file(const std::string& input);
+
+/// What is alive after `step`, or at the end. Throws InputError if a step is asked for and `input` has none.
+Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input);
+
 /// The skeleton of a config or a skeleton file, alive at the step asked for. Throws InputError for a mesh,
 /// and for flags that do not go with the kind of input.
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session);

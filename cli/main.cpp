@@ -78,6 +78,7 @@ int run(int argc, char** argv) {
   add_generate(program, session);
   add_render(program, session);
   add_stats(program, session);
+  add_compare(program, session);
   add_presets(program);
   add_params(program, session);
   add_check(program, session);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ struct RenderOptions {
   ViewDirection view;
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
-  std::string color_by;     // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
-  bool with_scale = false;  // a bar with its length and a human figure beside the tree
+  std::string color_by;  // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
+  std::span<const Vec3f> room_for;  // points in the picture besides the scene's: one scale for several scenes
+  bool with_scale = false;          // a bar with its length and a human figure beside the tree
 };
 
 struct Scene {
