@@ -19,7 +19,7 @@
 #include "common/base/errors.h"
 #include "common/base/files.h"
 #include "common/base/parallel.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "viewer/renderer.h"
 
 namespace ramify::cli {
@@ -205,8 +205,9 @@ std::vector<TreePicture> draw(const std::vector<Source>& sources, const Grown& g
   std::vector<Mesh> meshes;
   std::vector<Vec3f> room;  // for all, so that they have one scale
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const MesherOptions mesher = sources[i].job ? sources[i].job->mesher : MesherOptions{};
-    meshes.push_back(build_mesh(grown.first[i], mesher));
+    const std::optional<Job>& job = sources[i].job;
+    meshes.push_back(
+        make_tree_mesh(grown.first[i], job ? job->looks() : Looks{}, job ? job->seed() : 0).mesh);
     room.insert(room.end(), meshes.back().positions.begin(), meshes.back().positions.end());
     if (session.stop.stop_requested()) throw Interrupted();
   }

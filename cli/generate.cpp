@@ -17,7 +17,7 @@
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
 #include "common/base/stopwatch.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
 namespace ramify::cli {
@@ -75,8 +75,9 @@ std::uint64_t peak_memory_bytes() {
 
 using Seconds = std::vector<std::pair<std::string, double>>;
 
-void print_json(const Results& results, bool has_mesh, const std::vector<Output>& outputs,
-                const Seconds& seconds) {
+using Paths = std::vector<std::filesystem::path>;
+
+void print_json(const Results& results, bool has_mesh, const Paths& outputs, const Seconds& seconds) {
   nlohmann::ordered_json object;
   object["engine"] = results.job.engine->name;
   object["preset"] = results.job.name;
@@ -86,13 +87,15 @@ void print_json(const Results& results, bool has_mesh, const std::vector<Output>
   object["internodes"] = results.run.skeleton.internode_count();
   object["axes"] = results.run.skeleton.axis_count();
   object["triangles"] = nullptr;
-  if (has_mesh) object["triangles"] = results.mesh.triangles.size();
+  if (has_mesh) object["triangles"] = results.tree.mesh.triangles.size();
+  object["leaves"] = nullptr;
+  if (results.tree.leaf_count > 0) {
+    object["leaves"] = {{"count", results.tree.leaf_count}, {"area", results.tree.leaf_area}};
+  }
   for (const auto& [stage, duration] : seconds) object["seconds"][stage] = duration;
   object["peak_memory_bytes"] = peak_memory_bytes();
   object["outputs"] = nlohmann::json::array();
-  for (const Output& output : outputs) {
-    for (const auto& file : output.files()) object["outputs"].push_back(file.string());
-  }
+  for (const auto& file : outputs) object["outputs"].push_back(file.string());
   for (const ReportGroup& group : results.run.report.groups) {
     for (const auto& [name, value] : group.values) {
       const bool is_whole = value == std::floor(value) && std::abs(value) < 1e15;
@@ -106,8 +109,7 @@ void print_json(const Results& results, bool has_mesh, const std::vector<Output>
   fmt::print("{}\n", object.dump());
 }
 
-void print_summary(const Results& results, bool has_mesh, const std::vector<Output>& outputs,
-                   const Seconds& seconds) {
+void print_summary(const Results& results, bool has_mesh, const Paths& outputs, const Seconds& seconds) {
   const Job& job = results.job;
   Box box;
   for (const Vec3& position : results.run.skeleton.position) box.include(position);
@@ -120,11 +122,12 @@ void print_summary(const Results& results, bool has_mesh, const std::vector<Outp
     for (const auto& [name, value] : group.values) fmt::print(" {} {:.6g}", name, value);
     fmt::print("\n");
   }
-  if (has_mesh) fmt::print("{} triangles\n", grouped(results.mesh.triangles.size()));
-  for (const Output& output : outputs) {
-    for (const auto& file : output.files()) {
-      fmt::print("  {}  {} bytes\n", file.string(), grouped(std::filesystem::file_size(file)));
-    }
+  if (has_mesh) fmt::print("{} triangles\n", grouped(results.tree.mesh.triangles.size()));
+  if (results.tree.leaf_count > 0) {
+    fmt::print("{} leaves, {:.3g} m2 in all\n", grouped(results.tree.leaf_count), results.tree.leaf_area);
+  }
+  for (const auto& file : outputs) {
+    fmt::print("  {}  {} bytes\n", file.string(), grouped(std::filesystem::file_size(file)));
   }
   double total = 0.0;
   for (const auto& [stage, duration] : seconds) total += duration;
@@ -162,26 +165,28 @@ void generate(const GenerateFlags& flags, const Session& session) {
   Stopwatch watch;
   const bool has_mesh =
       std::any_of(outputs.begin(), outputs.end(), [](const Output& o) { return o.needs_mesh(); });
-  Mesh mesh;
+  TreeMesh tree;
   if (has_mesh) {
     const ThreadLimit limit(flags.running.threads);
-    mesh = build_mesh(living(run.skeleton), job.mesher);
+    tree = make_tree_mesh(living(run.skeleton), job.looks(), job.seed());
+    for (const std::string& warning : tree.mesh.warnings) warn(warning);
     watch.lap("mesh");
   }
   if (flags.at_step > 0) set_steps(job, flags.at_step);  // files say how to make what is in them
-  const Results results{job, run, mesh};
+  const Results results{job, run, tree};
   OutputFiles files;
   for (const Output& output : outputs) write_output(output, results, files);
   if (session.stop.stop_requested()) throw Interrupted();
+  const Paths written = files.paths();
   files.commit();
   if (!outputs.empty()) watch.lap("files");
 
   Seconds seconds = run.report.seconds;
   seconds.insert(seconds.end(), watch.seconds().begin(), watch.seconds().end());
   if (flags.running.is_json) {
-    print_json(results, has_mesh, outputs, seconds);
+    print_json(results, has_mesh, written, seconds);
   } else if (!flags.running.is_quiet) {
-    print_summary(results, has_mesh, outputs, seconds);
+    print_summary(results, has_mesh, written, seconds);
   }
 }
 

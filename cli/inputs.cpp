@@ -10,7 +10,7 @@
 #include "common/config/job.h"
 #include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
 namespace ramify::cli {
@@ -22,10 +22,11 @@ void refuse(const std::vector<Override>& overrides, const std::string& input) {
   throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));
 }
 
-/// A skeleton and how its config wants it meshed.
+/// A skeleton and how its config wants it dressed.
 struct Grown {
   Skeleton skeleton;
-  MesherOptions mesher;
+  Looks looks;
+  std::uint64_t seed = 0;
 };
 
 Grown read_grown(const std::string& input, const InputFlags& flags, const Session& session) {
@@ -34,7 +35,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
     refuse(overrides, input);
     SkeletonFile file = read_skeleton(input, flags.skeleton);
     if (!flags.running.is_quiet) note(file.notes);
-    return {living_at(file.skeleton, flags.at_step, input), {}};
+    return {living_at(file.skeleton, flags.at_step, input), {}, 0};
   }
   if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
   const Job job = load_job(session.registry, input, overrides);
@@ -42,7 +43,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
   context.stop = session.stop;
   context.wants_history = flags.at_step.has_value();
   RunResult run = run_with_progress(job, context, flags.running);
-  return {living_at(run.skeleton, flags.at_step, input), job.mesher};
+  return {living_at(run.skeleton, flags.at_step, input), job.looks(), job.seed()};
 }
 
 }  // namespace
@@ -76,7 +77,8 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
   Grown grown = read_grown(input, flags, session);
   const ThreadLimit limit(flags.running.threads);
   Tree tree;
-  tree.mesh = build_mesh(grown.skeleton, grown.mesher);
+  tree.mesh = make_tree_mesh(grown.skeleton, grown.looks, grown.seed).mesh;
+  for (const std::string& warning : tree.mesh.warnings) warn(warning);
   tree.skeleton = std::move(grown.skeleton);
   return tree;
 }

@@ -9,10 +9,13 @@
 #include "common/base/errors.h"
 #include "common/base/image.h"
 #include "common/format/layer_files.h"
+#include "common/format/pov_scene.h"
 #include "common/format/skeleton_table.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/obj.h"
 #include "common/mesh/ply.h"
+#include "common/mesh/stl.h"
+#include "common/skeleton/passes.h"
 #include "common/volume/voxel_file.h"
 #include "viewer/renderer.h"
 
@@ -31,6 +34,8 @@ constexpr std::array kEndings = {
     Ending{".gltf", OutputForm::gltf},
     Ending{".obj", OutputForm::obj},
     Ending{".ply", OutputForm::ply},
+    Ending{".stl", OutputForm::stl},
+    Ending{".pov", OutputForm::pov_scene},
     Ending{".csv", OutputForm::skeleton_table},
     Ending{".png", OutputForm::picture},
     Ending{".vdb", OutputForm::shadow_grid},
@@ -53,7 +58,7 @@ const Data& layer_data(const Results& results, const Output& output) {
 
 Image picture(const Results& results) {
   Renderer renderer;
-  return renderer.render({.mesh = &results.mesh, .skeleton = &results.run.skeleton}, {});
+  return renderer.render({.mesh = &results.tree.mesh, .skeleton = &results.run.skeleton}, {});
 }
 
 }  // namespace
@@ -64,8 +69,10 @@ bool Output::needs_mesh() const {
     case OutputForm::gltf:
     case OutputForm::obj:
     case OutputForm::ply:
+    case OutputForm::stl:
     case OutputForm::picture:
       return true;
+    case OutputForm::pov_scene:
     case OutputForm::skeleton_table:
     case OutputForm::shadow_grid:
     case OutputForm::graph:
@@ -101,17 +108,26 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
   const fs::path& path = output.path;
   switch (output.form) {
     case OutputForm::glb:
-      write_gltf(results.mesh, provenance, GltfForm::binary, files.add(path));
+      write_gltf(results.tree.mesh, provenance, GltfForm::binary, files.add(path));
       break;
     case OutputForm::gltf:
-      write_gltf(results.mesh, provenance, GltfForm::text, files.add(path));
+      write_gltf(results.tree.mesh, provenance, GltfForm::text, files.add(path));
       break;
     case OutputForm::obj:
-      write_obj(results.mesh, provenance, material_path(path).filename().string(), files.add(path));
-      write_mtl(results.mesh, files.add(material_path(path)));
+      write_obj(results.tree.mesh, provenance, material_path(path).filename().string(), files.add(path));
+      write_mtl(results.tree.mesh, path.stem().string(), files.add(material_path(path)));
+      for (const ImageFile& image : image_files(results.tree.mesh, path.stem().string())) {
+        files.add(fs::path(path).replace_filename(image.name)) << png_bytes(image.image);
+      }
       break;
     case OutputForm::ply:
-      write_ply(results.mesh, provenance, files.add(path));
+      write_ply(results.tree.mesh, provenance, files.add(path));
+      break;
+    case OutputForm::stl:
+      write_stl(results.mesh, provenance, files.add(path));
+      break;
+    case OutputForm::pov_scene:
+      write_pov_scene(living(results.run.skeleton), provenance, files.add(path));
       break;
     case OutputForm::skeleton_table:
       write_skeleton_table(results.run.skeleton, files.add(path));

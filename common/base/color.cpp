@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -46,6 +47,14 @@ std::optional<Color> parse_hex(std::string_view digits) {
 }
 
 }  // namespace
+
+float linear_of(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+float encoded_of(float linear) {
+  return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
 
 std::optional<Color> parse_color(std::string_view text) {
   if (text.starts_with('#')) return parse_hex(text.substr(1));

@@ -22,6 +22,10 @@ constexpr Color color_of(unsigned rgb) {
           static_cast<float>(rgb & 0xff) / 255.0f, 1.0f};
 }
 
+/// A component's light, 0 to 1, from its sRGB encoding, and back.
+float linear_of(float encoded);
+float encoded_of(float linear);
+
 /// "transparent", "#rgb", "#rrggbb", "#rrggbbaa" or one of the names of CSS that color.cpp lists, in upper or
 /// lower case; nullopt for anything else.
 std::optional<Color> parse_color(std::string_view text);

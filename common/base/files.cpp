@@ -60,6 +60,11 @@ OutputFiles::~OutputFiles() {
 
 std::ostream& OutputFiles::add(const fs::path& path) {
   require_writable(path);
+  for (const Staged& file : staged_) {
+    if (file.path.lexically_normal() == path.lexically_normal()) {
+      throw IoError(fmt::format("{}: two outputs would write this file", path.string()));
+    }
+  }
   // In the same folder, so that the rename cannot cross file systems; the process id keeps two runs apart.
   const fs::path temporary = folder_of(path) / fmt::format(".{}.{}.tmp", path.filename().string(), getpid());
   errno = 0;
@@ -67,6 +72,12 @@ std::ostream& OutputFiles::add(const fs::path& path) {
   if (!*stream) throw IoError(fmt::format("{}: cannot write: {}", path.string(), system_message()));
   staged_.push_back({path, temporary, std::move(stream)});
   return *staged_.back().stream;
+}
+
+std::vector<fs::path> OutputFiles::paths() const {
+  std::vector<fs::path> result;
+  for (const Staged& file : staged_) result.push_back(file.path);
+  return result;
 }
 
 void OutputFiles::commit() {

@@ -25,8 +25,12 @@ class OutputFiles {
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
-  /// A binary stream for the file that is to stand at `path`. Valid until commit(). Throws IoError.
+  /// A binary stream for the file that is to stand at `path`. Valid until commit(). Throws IoError, also for
+  /// a path that was added before.
   std::ostream& add(const std::filesystem::path& path);
+
+  /// What was added, in that order; empty after commit().
+  std::vector<std::filesystem::path> paths() const;
 
   /// Flushes, closes and looks at every stream, then renames them all into place. Throws IoError.
   void commit();

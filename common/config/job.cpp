@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "common/base/errors.h"
@@ -89,7 +90,20 @@ std::string origin_of(std::string key, const Origins& origins, const std::string
   return fallback;
 }
 
+/// Runs a check that knows only the keys below its table, and says where the table's key was set.
+void check_table(const std::string& table, const Job& job, const Origins& origins,
+                 const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const ConfigError& error) {
+    const std::string key = fmt::format("{}.{}", table, error.key());
+    throw ConfigError(origin_of(key, origins, job.name), key, error.problem());
+  }
+}
+
 std::vector<std::string> checked(const Job& job, const Origins& origins) {
+  check_table("bark", job, origins, [&] { check_bark(job.bark); });
+  check_table("leaves", job, origins, [&] { check_leaves(job.leaves); });
   if (job.mesher.sides_min > job.mesher.sides_max) {
     throw ConfigError(
         origin_of("mesher.sides_min", origins, job.name), "mesher.sides_min",
@@ -126,6 +140,8 @@ Table job_table(const AnyEngine& engine) {
   engine_row.child = [fields = &engine.fields]() -> const Table& { return *fields; };
   table.push_back(std::move(engine_row));
   table.push_back(Field<Job>("mesher", &Job::mesher, {.help = "skeleton to mesh, for every engine"}));
+  table.push_back(Field<Job>("bark", &Job::bark, {.help = "what the wood is dressed in, for every engine"}));
+  table.push_back(Field<Job>("leaves", &Job::leaves, {.help = "leaves on young wood, for every engine"}));
   return table;
 }
 

@@ -9,7 +9,7 @@
 #include "common/config/engine.h"
 #include "common/config/provenance.h"
 #include "common/config/toml_reader.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 
 namespace ramify {
 
@@ -18,8 +18,11 @@ struct Job {
   const AnyEngine* engine = nullptr;
   std::shared_ptr<void> parameters;  // the engine's, seed and steps among them
   MesherOptions mesher;
+  BarkOptions bark;
+  LeafOptions leaves;
   std::vector<std::string> warnings;  // of the check, one line each
 
+  Looks looks() const { return {mesher, bark, leaves}; }
   std::uint64_t seed() const { return engine->seed(parameters.get()); }
   int steps() const { return engine->steps(parameters.get()); }
   RunResult run(const RunContext& context) const { return engine->run(parameters.get(), context); }

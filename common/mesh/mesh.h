@@ -15,7 +15,7 @@ namespace ramify {
 /// What a surface looks like, in the terms of glTF's metallic-roughness model: nothing of a tree is metal.
 struct Material {
   std::string name;           // "bark", "leaf"
-  Vec3f color{1.0f};          // linear RGB; multiplied by the image where there is one
+  Vec3f color{1.0f};          // linear RGB; multiplied by image and vertex colours where there are some
   float roughness = 0.9f;     // 0 mirror, 1 dull
   Image image;                // empty: the colour alone
   Image normal_map;           // empty: none; tangent space, x along +u, y along +v, z outwards
@@ -34,12 +34,15 @@ struct MaterialRange {
 struct Mesh {
   BulkVector<Vec3f> positions;  // metres
   BulkVector<Vec3f> normals;    // unit length, one a vertex
-  BulkVector<Vec2f> uvs;  // one a vertex; on bark u once around the branch, v along it, one unit a girth
+  BulkVector<Vec2f> uvs;  // one a vertex; v = 0 is an image's lower edge. Bark: u around the branch, v along
+  BulkVector<glm::vec4>
+      tangents;  // along +u, unit length; w = 1 or -1: bitangent = w * cross(normal, xyz). Or empty
   BulkVector<std::array<std::uint8_t, 4>> colors;  // sRGB and alpha, one a vertex; empty: none
   BulkVector<std::uint32_t> internodes;            // the skeleton node that each vertex belongs to
   BulkVector<std::array<std::uint32_t, 3>> triangles;
   std::vector<MaterialRange> ranges;  // in order, covering all triangles
   std::vector<Material> materials;
+  std::vector<std::string> warnings;  // of the mesher, one line each
 
   std::size_t vertex_count() const { return positions.size(); }
   const Material& material(const MaterialRange& range) const { return materials[range.material]; }
