@@ -101,13 +101,12 @@ void check_flags(const CompareFlags& flags) {
 
 Source source_of(const std::string& input, const CompareFlags& flags, const Session& session) {
   Source source{input, {}, std::nullopt};
-  InputFlags reading = flags.reading;
-  if (is_skeleton_file(input)) {
+  if (!is_config(input)) {
+    InputFlags reading = flags.reading;
     reading.configuring = {};
     source.tree = read_living(input, reading, session);
     return source;
   }
-  if (is_mesh_file(input)) static_cast<void>(read_living(input, reading, session));  // says why it cannot be
   source.job = load_job(session.registry, input, flags.reading.configuring.overrides());
   for (const std::string& warning : source.job->warnings) warn(fmt::format("{}: {}", input, warning));
   return source;

@@ -22,6 +22,11 @@ void refuse(const std::vector<Override>& overrides, const std::string& input) {
   throw InputError(fmt::format("{}: {} goes with configs only", overrides.front().flag, input));
 }
 
+bool is_mesh(const std::string& input) {
+  const std::string ending = std::filesystem::path(input).extension().string();
+  return ending == ".glb" || ending == ".gltf";
+}
+
 /// A skeleton and how its config wants it dressed.
 struct Grown {
   Skeleton skeleton;
@@ -48,19 +53,18 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
 
 }  // namespace
 
-bool is_mesh_file(const std::string& input) {
-  const std::string ending = std::filesystem::path(input).extension().string();
-  return ending == ".glb" || ending == ".gltf";
-}
-
 Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input) {
   if (!step) return living(skeleton);
   if (skeleton.birth_step.empty()) throw InputError(fmt::format("--at-step: {} has no steps", input));
   return cut_at_step(skeleton, *step);
 }
 
+bool is_config(const std::string& input) {
+  return !is_mesh(input) && !is_skeleton_file(input);
+}
+
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh_file(input)) {
+  if (is_mesh(input)) {
     throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
                                  input, skeleton_endings()));
   }
@@ -68,7 +72,7 @@ Skeleton read_living(const std::string& input, const InputFlags& flags, const Se
 }
 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh_file(input)) {
+  if (is_mesh(input)) {
     refuse(flags.configuring.overrides(), input);
     if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
     if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));

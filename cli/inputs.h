@@ -25,11 +25,11 @@ struct InputFlags {
   RunFlags running;
 };
 
-/// True for endings of meshes, which have no skeleton.
-bool is_mesh_file(const std::string& input);
-
 /// What is alive after `step`, or at the end. Throws InputError if a step is asked for and `input` has none.
 Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input);
+
+/// Whether the input is a preset's name or a config file: what no other ending tells of.
+bool is_config(const std::string& input);
 
 /// The skeleton of a config or a skeleton file, alive at the step asked for. Throws InputError for a mesh,
 /// and for flags that do not go with the kind of input.
