@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,11 @@ struct RenderOptions {
   ViewDirection view;
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
-  std::string color_by;        // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
-  std::optional<Color> tint;   // all of the tree in this one, whatever color_by says
-  bool with_scale = false;     // a bar with its length and a human figure beside the tree
-  bool with_occlusion = true;  // lit: the sky's light and the sun's are kept out; without, drawn sooner
+  std::string color_by;       // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
+  std::optional<Color> tint;  // all of the tree in this one, whatever color_by says
+  std::span<const Vec3f> room_for;  // points in the picture besides the scene's: one scale for several scenes
+  bool with_scale = false;          // a bar with its length and a human figure beside the tree
+  bool with_occlusion = true;       // lit: the sky's light and the sun's are kept out; without, drawn sooner
 };
 
 struct Scene {
