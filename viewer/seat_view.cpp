@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "viewer/actions.h"
+#include "viewer/show_view.h"
 
 namespace ramify {
 namespace {
@@ -173,6 +174,7 @@ void show_seat(Workbench& bench, std::size_t index, const ImVec2& size) {
   const ImVec2 picture(size.x, std::max(1.0f, size.y - steps));
   show_picture(bench, index, picture);
   show_state(bench, index, low, picture);
+  show_legend(bench, index, low.x + picture.x, low.y + picture.y);
   if (bench.seats.size() > 1 && index == bench.active) {
     ImGui::GetWindowDrawList()->AddRect(low, plus(low, picture), ImGui::GetColorU32(ImGuiCol_SliderGrab),
                                         0.0f, 0, 1.5f);

@@ -100,6 +100,8 @@ void run(Workbench& bench) {
     bench.window.begin_frame();
     obey_keys(bench);
     if (const auto dropped = bench.window.take_dropped(); !dropped.empty()) open_dropped(bench, dropped);
+    // What is held is not at rest.
+    if (bench.is_moving() && ImGui::IsAnyItemActive()) bench.last_motion = Window::now();
     const double rest = tend(bench);
     lay_out(bench);
     bench.window.end_frame();
