@@ -155,6 +155,7 @@ std::vector<Command> view_commands() {
            },
        .is_possible = has_two,
        .is_on = [](const Workbench& bench) { return bench.is_same_scale; }},
+      switch_command("Gallery of presets", "g", &Workbench::shows_gallery),
       {.menu = "View",
        .label = "Overlay both trees",
        .key = {"o"},
