@@ -17,7 +17,7 @@
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
 #include "common/base/stopwatch.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
 namespace ramify::cli {
@@ -87,7 +87,11 @@ void print_json(const Results& results, bool has_mesh, const Paths& outputs, con
   object["internodes"] = results.run.skeleton.internode_count();
   object["axes"] = results.run.skeleton.axis_count();
   object["triangles"] = nullptr;
-  if (has_mesh) object["triangles"] = results.mesh.triangles.size();
+  if (has_mesh) object["triangles"] = results.tree.mesh.triangles.size();
+  object["leaves"] = nullptr;
+  if (results.tree.leaf_count > 0) {
+    object["leaves"] = {{"count", results.tree.leaf_count}, {"area", results.tree.leaf_area}};
+  }
   for (const auto& [stage, duration] : seconds) object["seconds"][stage] = duration;
   object["peak_memory_bytes"] = peak_memory_bytes();
   object["outputs"] = nlohmann::json::array();
@@ -118,7 +122,10 @@ void print_summary(const Results& results, bool has_mesh, const Paths& outputs, 
     for (const auto& [name, value] : group.values) fmt::print(" {} {:.6g}", name, value);
     fmt::print("\n");
   }
-  if (has_mesh) fmt::print("{} triangles\n", grouped(results.mesh.triangles.size()));
+  if (has_mesh) fmt::print("{} triangles\n", grouped(results.tree.mesh.triangles.size()));
+  if (results.tree.leaf_count > 0) {
+    fmt::print("{} leaves, {:.3g} m2 in all\n", grouped(results.tree.leaf_count), results.tree.leaf_area);
+  }
   for (const auto& file : outputs) {
     fmt::print("  {}  {} bytes\n", file.string(), grouped(std::filesystem::file_size(file)));
   }
@@ -158,14 +165,15 @@ void generate(const GenerateFlags& flags, const Session& session) {
   Stopwatch watch;
   const bool has_mesh =
       std::any_of(outputs.begin(), outputs.end(), [](const Output& o) { return o.needs_mesh(); });
-  Mesh mesh;
+  TreeMesh tree;
   if (has_mesh) {
     const ThreadLimit limit(flags.running.threads);
-    mesh = build_mesh(living(run.skeleton), job.mesher);
+    tree = make_tree_mesh(living(run.skeleton), job.looks(), job.seed());
+    for (const std::string& warning : tree.mesh.warnings) warn(warning);
     watch.lap("mesh");
   }
   if (flags.at_step > 0) set_steps(job, flags.at_step);  // files say how to make what is in them
-  const Results results{job, run, mesh};
+  const Results results{job, run, tree};
   OutputFiles files;
   for (const Output& output : outputs) write_output(output, results, files);
   if (session.stop.stop_requested()) throw Interrupted();
@@ -187,13 +195,16 @@ void generate(const GenerateFlags& flags, const Session& session) {
 void add_generate(CLI::App& program, const Session& session) {
   auto flags = std::make_shared<GenerateFlags>();
   CLI::App* command = program.add_subcommand("generate", "Make a tree and write it to files");
-  command->add_option("config", flags->config, "A preset (`ramify presets`), or a TOML file")
+  command
+      ->add_option("config", flags->config,
+                   "A preset (`ramify presets`), a TOML file, or a .glb, .gltf or .skel.ply that ramify made")
       ->type_name("CONFIG")
       ->required();
   command
       ->add_option(
           "-o,--output", flags->outputs,
-          "File to write, by its ending: .glb .gltf .obj .ply mesh, .csv skeleton, .png picture, .vdb shadow "
+          "File to write, by its ending: .glb .gltf .obj .ply mesh, .csv .skel.ply .swc .mtg skeleton, .png "
+          "picture, .vdb shadow "
           "(repeatable)")
       ->type_name("FILE")
       ->allow_extra_args(false);

@@ -10,7 +10,7 @@
 #include "common/config/job.h"
 #include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
 namespace ramify::cli {
@@ -33,10 +33,11 @@ bool is_mesh(const std::string& input) {
   return ending == ".glb" || ending == ".gltf";
 }
 
-/// A skeleton and how its config wants it meshed.
+/// A skeleton and how its config wants it dressed.
 struct Grown {
   Skeleton skeleton;
-  MesherOptions mesher;
+  Looks looks;
+  std::uint64_t seed = 0;
 };
 
 Grown read_grown(const std::string& input, const InputFlags& flags, const Session& session) {
@@ -45,7 +46,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
     refuse(overrides, input);
     SkeletonFile file = read_skeleton(input, flags.skeleton);
     if (!flags.running.is_quiet) note(file.notes);
-    return {cut(std::move(file.skeleton), flags, input), {}};
+    return {cut(std::move(file.skeleton), flags, input), {}, 0};
   }
   if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
   const Job job = load_job(session.registry, input, overrides);
@@ -53,7 +54,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
   context.stop = session.stop;
   context.wants_history = flags.at_step.has_value();
   RunResult run = run_with_progress(job, context, flags.running);
-  return {cut(std::move(run.skeleton), flags, input), job.mesher};
+  return {cut(std::move(run.skeleton), flags, input), job.looks(), job.seed()};
 }
 
 }  // namespace
@@ -80,7 +81,8 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
   Grown grown = read_grown(input, flags, session);
   const ThreadLimit limit(flags.running.threads);
   Tree tree;
-  tree.mesh = build_mesh(grown.skeleton, grown.mesher);
+  tree.mesh = make_tree_mesh(grown.skeleton, grown.looks, grown.seed).mesh;
+  for (const std::string& warning : tree.mesh.warnings) warn(warning);
   tree.skeleton = std::move(grown.skeleton);
   return tree;
 }

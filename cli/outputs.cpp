@@ -9,10 +9,13 @@
 #include "common/base/errors.h"
 #include "common/base/image.h"
 #include "common/format/layer_files.h"
-#include "common/format/skeleton_table.h"
+#include "common/format/pov_scene.h"
+#include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/obj.h"
 #include "common/mesh/ply.h"
+#include "common/mesh/stl.h"
+#include "common/skeleton/passes.h"
 #include "common/volume/voxel_file.h"
 #include "viewer/renderer.h"
 
@@ -30,8 +33,13 @@ constexpr std::array kEndings = {
     Ending{".glb", OutputForm::glb},
     Ending{".gltf", OutputForm::gltf},
     Ending{".obj", OutputForm::obj},
+    Ending{".skel.ply", OutputForm::skeleton},  // before .ply, in which it ends
     Ending{".ply", OutputForm::ply},
-    Ending{".csv", OutputForm::skeleton_table},
+    Ending{".stl", OutputForm::stl},
+    Ending{".pov", OutputForm::pov_scene},
+    Ending{".csv", OutputForm::skeleton},
+    Ending{".swc", OutputForm::skeleton},
+    Ending{".mtg", OutputForm::skeleton},
     Ending{".png", OutputForm::picture},
     Ending{".vdb", OutputForm::shadow_grid},
 };
@@ -51,9 +59,14 @@ const Data& layer_data(const Results& results, const Output& output) {
   return std::get<Data>(std::find_if(layers.begin(), layers.end(), is_named)->data);
 }
 
+bool is_ending_of(std::string_view ending, const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  return name.size() > ending.size() && name.ends_with(ending);
+}
+
 Image picture(const Results& results) {
   Renderer renderer;
-  return renderer.render({.mesh = &results.mesh, .skeleton = &results.run.skeleton}, {});
+  return renderer.render({.mesh = &results.tree.mesh, .skeleton = &results.run.skeleton}, {});
 }
 
 }  // namespace
@@ -64,9 +77,11 @@ bool Output::needs_mesh() const {
     case OutputForm::gltf:
     case OutputForm::obj:
     case OutputForm::ply:
+    case OutputForm::stl:
     case OutputForm::picture:
       return true;
-    case OutputForm::skeleton_table:
+    case OutputForm::pov_scene:
+    case OutputForm::skeleton:
     case OutputForm::shadow_grid:
     case OutputForm::graph:
       return false;
@@ -95,7 +110,7 @@ std::string known_endings() {
 Output output_of(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   for (const Ending& known : kEndings) {
-    if (ending == known.text) return {known.form, path};
+    if (is_ending_of(known.text, path)) return {known.form, path};
   }
   throw InputError(fmt::format("{}: unknown ending '{}' ({})", path, ending, known_endings()));
 }
@@ -105,23 +120,29 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
   const fs::path& path = output.path;
   switch (output.form) {
     case OutputForm::glb:
-      write_gltf(results.mesh, provenance, GltfForm::binary, files.add(path));
+      write_gltf(results.tree.mesh, provenance, GltfForm::binary, files.add(path));
       break;
     case OutputForm::gltf:
-      write_gltf(results.mesh, provenance, GltfForm::text, files.add(path));
+      write_gltf(results.tree.mesh, provenance, GltfForm::text, files.add(path));
       break;
     case OutputForm::obj:
-      write_obj(results.mesh, provenance, material_path(path).filename().string(), files.add(path));
-      write_mtl(results.mesh, path.stem().string(), files.add(material_path(path)));
-      for (const ImageFile& image : image_files(results.mesh, path.stem().string())) {
-        files.add(fs::path(path).replace_filename(image.name)) << png_bytes(*image.image);
+      write_obj(results.tree.mesh, provenance, material_path(path).filename().string(), files.add(path));
+      write_mtl(results.tree.mesh, path.stem().string(), files.add(material_path(path)));
+      for (const ImageFile& image : image_files(results.tree.mesh, path.stem().string())) {
+        files.add(fs::path(path).replace_filename(image.name)) << png_bytes(image.image);
       }
       break;
     case OutputForm::ply:
-      write_ply(results.mesh, provenance, files.add(path));
+      write_ply(results.tree.mesh, provenance, files.add(path));
       break;
-    case OutputForm::skeleton_table:
-      write_skeleton_table(results.run.skeleton, files.add(path));
+    case OutputForm::stl:
+      write_stl(results.tree.mesh, provenance, files.add(path));
+      break;
+    case OutputForm::pov_scene:
+      write_pov_scene(living(results.run.skeleton), provenance, files.add(path));
+      break;
+    case OutputForm::skeleton:
+      write_skeleton(results.run.skeleton, *skeleton_form(path), provenance, files.add(path));
       break;
     case OutputForm::picture:
       write_png(picture(results), files.add(path));

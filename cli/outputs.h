@@ -7,11 +7,11 @@
 
 #include "common/base/files.h"
 #include "common/config/job.h"
-#include "common/mesh/mesh.h"
+#include "common/mesh/tree_mesh.h"
 
 namespace ramify::cli {
 
-enum class OutputForm { glb, gltf, obj, ply, skeleton_table, picture, shadow_grid, graph };
+enum class OutputForm { glb, gltf, obj, ply, stl, pov_scene, skeleton, picture, shadow_grid, graph };
 
 struct Output {
   OutputForm form = OutputForm::glb;
@@ -34,7 +34,7 @@ Output output_of(const std::string& path);
 struct Results {
   const Job& job;
   const RunResult& run;
-  const Mesh& mesh;  // empty where no output needs it
+  const TreeMesh& tree;  // empty where no output needs it
 };
 
 /// Adds the output's files to `files`. The run must have made the output's layer. Throws RunError.

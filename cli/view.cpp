@@ -10,7 +10,7 @@
 #include "cli/outputs.h"
 #include "common/base/errors.h"
 #include "common/format/skeleton_files.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 #include "viewer/view.h"
 
@@ -59,9 +59,10 @@ void write(const Export& wanted) {
   } else {
     run.skeleton = wanted.skeleton;
   }
-  const Mesh mesh = output.needs_mesh() ? build_mesh(run.skeleton, wanted.job.mesher) : Mesh();
+  const TreeMesh tree =
+      output.needs_mesh() ? make_tree_mesh(run.skeleton, wanted.job.looks(), wanted.job.seed()) : TreeMesh();
   OutputFiles files;
-  write_output(output, {wanted.job, run, mesh}, files);
+  write_output(output, {wanted.job, run, tree}, files);
   files.commit();
 }
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/config/job.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 #include "growth/engine.h"
 #include "pathplan/engine.h"
 #include "tests/catch.h"
@@ -76,7 +76,7 @@ TEST_CASE(
     }
     CHECK(violations(result.skeleton).empty());
     CHECK(result.skeleton.internode_count() > 20);
-    CHECK(build_mesh(result.skeleton, job.mesher).triangles.size() > 100);
+    CHECK(make_tree_mesh(result.skeleton, job.looks(), job.seed()).mesh.triangles.size() > 100);
 
     Job again = default_job(*job.engine);
     Origins origins;

@@ -17,11 +17,14 @@ namespace {
 constexpr GLuint kPosition = 0;
 constexpr GLuint kNormal = 1;
 constexpr GLuint kColor = 2;
+constexpr GLuint kUv = 3;
 
 // Texture units.
 constexpr int kSunDepthUnit = 0;
 constexpr int kCoverageUnit = 1;
 constexpr int kSkyUnit = 2;
+constexpr int kImageUnit = 3;
+constexpr int kNormalMapUnit = 4;
 
 // The sky of pictures without a background of their own, and the ground under it.
 constexpr Color kSkyTop = color_of(0xc6d3dd);
@@ -58,6 +61,25 @@ void bind_texture(int unit, GLenum target, const GlTexture& texture) {
   glBindTexture(target, texture.id());
 }
 
+/// Repeats each way, with coarser and coarser copies. Row 0 of the image becomes the upper edge, v = 1.
+GlTexture texture_of(const Image& image, bool is_srgb) {
+  const std::size_t row_bytes = 4 * static_cast<std::size_t>(image.width);
+  std::vector<std::uint8_t> bottom_up;
+  bottom_up.reserve(image.rgba.size());
+  for (int y = image.height - 1; y >= 0; --y) {
+    bottom_up.insert(bottom_up.end(), image.pixel(0, y), image.pixel(0, y) + row_bytes);
+  }
+  GlTexture texture;
+  bind_texture(kImageUnit, GL_TEXTURE_2D, texture);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width, image.height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, bottom_up.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
 /// Maps the part of the picture that the viewport shows to the whole of clip space.
 glm::dmat4 cropped(const Viewport& viewport) {
   const glm::dvec2 scale = 1.0 / (viewport.high - viewport.low);
@@ -92,6 +114,7 @@ Painter::Painter()
 void Painter::load(const Scene& scene, const RenderOptions& options) {
   options_ = options;
   tree_ = Batch();
+  surfaces_.clear();
   figure_ = Batch();
   figure_corners_.clear();
   bar_ = Batch();
@@ -115,6 +138,7 @@ void Painter::load_mesh(const Scene& scene) {
     add_attribute<Vec3f>(kNormal, tree_.normals, mesh.normals, 3, GL_FLOAT);
   }
   add_attribute<ColorBytes>(kColor, tree_.colors, colors, 4, GL_UNSIGNED_BYTE);
+  add_attribute<Vec2f>(kUv, tree_.uvs, mesh.uvs, 2, GL_FLOAT);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, tree_.indices.id());
   const std::size_t byte_count = mesh.triangles.size() * sizeof(mesh.triangles[0]);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(byte_count), mesh.triangles.data(),
@@ -122,9 +146,28 @@ void Painter::load_mesh(const Scene& scene) {
   for (const MaterialRange& range : mesh.ranges) {
     // The mesher's branches are closed; a file's need not be, and leaves have two sides.
     const bool is_closed = scene.skeleton != nullptr && !mesh.material(range).is_two_sided;
-    tree_.ranges.push_back({3 * range.first_triangle, static_cast<int>(3 * range.triangle_count), is_closed});
+    tree_.ranges.push_back(
+        {3 * range.first_triangle, static_cast<int>(3 * range.triangle_count), is_closed, range.material});
   }
   glBindVertexArray(0);
+  load_surfaces(mesh);
+}
+
+void Painter::load_surfaces(const Mesh& mesh) {
+  // In plain colours an image only tells where a leaf ends.
+  const bool is_plain = !options_.color_by.empty() || options_.style == RenderStyle::schematic;
+  for (const Material& material : mesh.materials) {
+    Surface surface;
+    if (!is_plain && shows_materials(mesh)) surface.color = material.color;
+    surface.is_thin = material.is_two_sided;
+    surface.is_cutout = material.is_cutout && !material.image.is_empty();
+    if (!material.image.is_empty() && (!is_plain || surface.is_cutout)) {
+      surface.image = texture_of(material.image, true);
+    }
+    if (!material.normal_map.is_empty() && !is_plain)
+      surface.normal_map = texture_of(material.normal_map, false);
+    surfaces_.push_back(std::move(surface));
+  }
 }
 
 void Painter::load_lines(const Scene& scene) {
@@ -226,7 +269,7 @@ void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_si
 void Painter::cast(const Batch& batch) const {
   caster_.set("world_to_map", moved(sun_.world_to_map, batch.origin));
   caster_.set("ground", static_cast<float>(base_.y - batch.origin.y));
-  draw_triangles(batch);
+  draw_triangles(batch, caster_);
 }
 
 bool Painter::has_ground(const Camera& camera) const {
@@ -292,7 +335,7 @@ void Painter::draw_tree(const glm::dmat4& world_to_clip) const {
     program.set("sun_depth", kSunDepthUnit);
     program.set("texel", static_cast<float>(std::max(sun_.size.x, sun_.size.y) / shadow_map_->size()));
   }
-  draw_triangles(tree_);
+  draw_triangles(tree_, program);
 }
 
 void Painter::draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const {
@@ -324,18 +367,40 @@ void Painter::draw_ground(const glm::dmat4& world_to_clip) const {
 void Painter::draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) const {
   flat_.use();
   flat_.set("world_to_clip", moved(world_to_clip, batch.origin));
-  draw_triangles(batch);
+  draw_triangles(batch, flat_);
 }
 
-void Painter::draw_triangles(const Batch& batch) {
+void Painter::draw_triangles(const Batch& batch, const GlProgram& program) const {
   glBindVertexArray(batch.vertices.id());
+  set_surface({}, program);
   glDrawArrays(GL_TRIANGLES, 0, batch.count);
   for (const Range& range : batch.ranges) {
+    const Surface& surface = surfaces_[range.surface];
+    set_surface(surface, program);
     if (range.is_closed) glEnable(GL_CULL_FACE);
+    // A leaf's edge covers as many of a pixel's samples as its alpha says.
+    for (const GLenum capability : {GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE}) {
+      if (surface.is_cutout) glEnable(capability);
+    }
     const void* offset = reinterpret_cast<const void*>(range.first * sizeof(std::uint32_t));
     glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, offset);
+    for (const GLenum capability : {GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE})
+      glDisable(capability);
     glDisable(GL_CULL_FACE);
   }
+}
+
+void Painter::set_surface(const Surface& surface, const GlProgram& program) const {
+  const bool is_plain = !options_.color_by.empty() || options_.style == RenderStyle::schematic;
+  program.set("surface_color", surface.color);
+  program.set("is_cutout", surface.is_cutout ? 1 : 0);
+  program.set("is_thin", surface.is_thin ? 1 : 0);
+  program.set("has_image", surface.image && !is_plain ? 1 : 0);
+  program.set("has_normal_map", surface.normal_map ? 1 : 0);
+  program.set("image", kImageUnit);
+  program.set("normal_map", kNormalMapUnit);
+  if (surface.image) bind_texture(kImageUnit, GL_TEXTURE_2D, *surface.image);
+  if (surface.normal_map) bind_texture(kNormalMapUnit, GL_TEXTURE_2D, *surface.normal_map);
 }
 
 void Painter::set_light(const GlProgram& program) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,7 +55,17 @@ class Painter {
   struct Range {
     std::size_t first = 0;
     int count = 0;
-    bool is_closed = false;  // so that the triangles' backs are never seen
+    bool is_closed = false;   // so that the triangles' backs are never seen
+    std::size_t surface = 0;  // index into surfaces_
+  };
+
+  /// A material on the GPU.
+  struct Surface {
+    Vec3f color{1.0f};  // linear, times that of the vertices
+    bool is_cutout = false;
+    bool is_thin = false;  // light comes through
+    std::optional<GlTexture> image;
+    std::optional<GlTexture> normal_map;
   };
 
   /// Triangles, or lines, on the GPU.
@@ -64,12 +75,14 @@ class Painter {
     GlBuffer positions;
     GlBuffer normals;  // of lines: where they end
     GlBuffer colors;
+    GlBuffer uvs;
     GlBuffer indices;
     std::vector<Range> ranges;  // of a mesh
     int count = 0;              // of vertices or lines, where there are no ranges
   };
 
   void load_mesh(const Scene& scene);
+  void load_surfaces(const Mesh& mesh);
   void load_lines(const Scene& scene);
   void load_sky_light(const Scene& scene);
   Batch flat_batch(const std::vector<Vec2f>& corners, const CameraAxes& axes) const;
@@ -77,7 +90,8 @@ class Painter {
   void draw_tree(const glm::dmat4& world_to_clip) const;
   void draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const;
   void draw_ground(const glm::dmat4& world_to_clip) const;
-  static void draw_triangles(const Batch& batch);
+  void draw_triangles(const Batch& batch, const GlProgram& program) const;
+  void set_surface(const Surface& surface, const GlProgram& program) const;
   void draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) const;
   void cast(const Batch& batch) const;
   void set_light(const GlProgram& program) const;
@@ -93,6 +107,7 @@ class Painter {
 
   RenderOptions options_;
   Batch tree_;
+  std::vector<Surface> surfaces_;
   std::vector<Vec3f> figure_corners_;
   Batch figure_;
   Batch bar_;

@@ -85,6 +85,11 @@ Vec3 base_of(const Scene& scene) {
   return box.is_empty() ? Vec3(0.0) : Vec3(box.center().x, box.low.y, box.center().z);
 }
 
+bool shows_materials(const Mesh& mesh) {
+  return !mesh.colors.empty() || std::any_of(mesh.materials.begin(), mesh.materials.end(),
+                                             [](const Material& m) { return !m.image.is_empty(); });
+}
+
 std::vector<ColorBytes> vertex_colors(const Scene& scene, const RenderOptions& options) {
   if (options.tint) {
     const std::size_t count = scene.mesh == nullptr ? 0 : scene.mesh->vertex_count();
@@ -98,6 +103,10 @@ std::vector<ColorBytes> vertex_colors(const Scene& scene, const RenderOptions& o
   if (scene.mesh == nullptr) return {};
   if (options.style == RenderStyle::schematic)
     return std::vector<ColorBytes>(scene.mesh->vertex_count(), kBlack);
+  if (const auto& own = scene.mesh->colors; !own.empty()) return {own.begin(), own.end()};
+  if (shows_materials(*scene.mesh)) {
+    return std::vector<ColorBytes>(scene.mesh->vertex_count(), {255, 255, 255, 255});
+  }
   std::vector<ColorBytes> colors = bark_colors(scene);
   color_leaves(*scene.mesh, colors);
   return colors;

@@ -50,9 +50,12 @@ using ColorBytes = std::array<std::uint8_t, 4>;
 
 ColorBytes color_bytes(const Color& color);
 
-/// The colour of each vertex in the style lit or schematic: by attribute, else bark by the width (leaves
-/// green) or black. Throws InputError if color_by names what the scene's skeleton lacks, or there is no
-/// skeleton.
+/// Whether the mesh has colours or images of its own, to be shown as they are.
+bool shows_materials(const Mesh& mesh);
+
+/// The colour of each vertex in the style lit or schematic: by attribute, else black or the mesh's own, white
+/// where it has images alone; bark by the width (leaves green) where it has none of these. Throws InputError
+/// if color_by names what the scene's skeleton lacks, or there is no skeleton.
 std::vector<ColorBytes> vertex_colors(const Scene& scene, const RenderOptions& options);
 
 /// The colour of each skeleton node in the style skeleton; by order if color_by is empty. Throws InputError.

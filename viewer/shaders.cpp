@@ -9,6 +9,26 @@ vec3 linear_of(vec3 encoded) {
 }
 )";
 
+// What a material's image says at a place of the surface.
+constexpr const char* kSurface = R"(
+in vec2 place;  // on the image
+uniform sampler2D image;
+uniform bool has_image;
+uniform bool is_cutout;
+
+// How much of the pixel the surface covers, from 0 to 1: the image's alpha, its edge as sharp as the pixels
+// are. Coarser copies of the image blur thin things away; they get that much more.
+float presence() {
+  if (!is_cutout) return 1.0;
+  vec2 texels = vec2(textureSize(image, 0));
+  vec2 dx = dFdx(place) * texels;
+  vec2 dy = dFdy(place) * texels;
+  float lod = max(0.0, 0.5 * log2(max(dot(dx, dx), dot(dy, dy))));
+  float alpha = texture(image, place).a * (1.0 + 0.25 * lod);
+  return clamp((alpha - 0.5) / max(fwidth(alpha), 0.05) + 0.5, 0.0, 1.0);
+}
+)";
+
 // Sunlight and skylight add up to 1 on level ground in the open, so that its colour there is its own.
 constexpr const char* kLight = R"(
 uniform vec3 to_sun;
@@ -92,10 +112,13 @@ void main() {
 std::string caster_vertex() {
   return R"(
 layout(location = 0) in vec3 position;
+layout(location = 3) in vec2 uv;
 uniform mat4 world_to_map;
+out vec2 place;
 out float height;
 out float depth;
 void main() {
+  place = uv;
   vec3 at = (world_to_map * vec4(position, 1.0)).xyz;
   height = position.y;
   depth = at.z;
@@ -105,14 +128,14 @@ void main() {
 }
 
 std::string caster_fragment() {
-  return R"(
+  return std::string(kSurface) + R"(
 in float height;
 in float depth;
 uniform float ground;
 out vec2 shade;
 void main() {
   // Roots in the ground cast no shadow on it.
-  if (height < ground) discard;
+  if (height < ground || presence() < 0.5) discard;
   shade = vec2(1.0, depth);
 }
 )";
@@ -122,20 +145,27 @@ std::string flat_vertex() {
   return std::string(kDecode) + R"(
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec4 color;
+layout(location = 3) in vec2 uv;
 uniform mat4 world_to_clip;
 out vec3 paint;
+out vec2 place;
 void main() {
   paint = linear_of(color.rgb);
+  place = uv;
   gl_Position = world_to_clip * vec4(position, 1.0);
 }
 )";
 }
 
 std::string flat_fragment() {
-  return R"(
+  return std::string(kSurface) + R"(
 in vec3 paint;
 out vec4 color;
-void main() { color = vec4(paint, 1.0); }
+void main() {
+  float present = presence();
+  if (present < 0.25) discard;
+  color = vec4(paint, present);
+}
 )";
 }
 
@@ -144,11 +174,14 @@ std::string lit_vertex() {
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;
+layout(location = 3) in vec2 uv;
 uniform mat4 world_to_clip;
+out vec2 place;
 out vec3 world;
 out vec3 world_normal;
 out vec3 albedo;
 void main() {
+  place = uv;
   world = position;
   world_normal = normal;
   albedo = linear_of(color.rgb);
@@ -158,10 +191,14 @@ void main() {
 }
 
 std::string lit_fragment() {
-  return std::string(kLight) + R"(
+  return std::string(kSurface) + kLight + R"(
 in vec3 world;
 in vec3 world_normal;
 in vec3 albedo;
+uniform vec3 surface_color;
+uniform bool is_thin;
+uniform bool has_normal_map;
+uniform sampler2D normal_map;
 uniform sampler2DShadow sun_depth;
 uniform float texel;  // metres
 out vec4 color;
@@ -178,15 +215,45 @@ float sunlit(vec3 normal) {
                  texture(sun_depth, map + step * vec3(-1.0, 1.0, 0.0)));
 }
 
+// The normal map's normal in the frame that the image's axes make with the surface here.
+vec3 bumped(vec3 normal) {
+  vec3 p = dFdx(world);
+  vec3 q = dFdy(world);
+  vec2 s = dFdx(place);
+  vec2 t = dFdy(place);
+  float turn = s.x * t.y - s.y * t.x;
+  vec3 along = (p * t.y - q * s.y) * sign(turn);
+  along -= normal * dot(along, normal);
+  if (dot(along, along) < 1e-24) return normal;
+  vec3 u = normalize(along);
+  vec3 v = cross(normal, u) * sign(turn);
+  vec3 bump = 2.0 * texture(normal_map, place).xyz - 1.0;
+  return normalize(u * bump.x + v * bump.y + normal * max(bump.z, 0.1));
+}
+
+// Sunlight that falls on the surface; through a thin one it comes from behind, too, and is greener then.
+vec3 sunlight(vec3 normal, vec3 shaped) {
+  float facing = dot(shaped, to_sun);
+  float behind = is_thin ? max(-dot(normal, to_sun), 0.0) : 0.0;
+  if (max(facing, behind) <= 0.0) return vec3(0.0);
+  float lit = sunlit(behind > 0.0 ? -normal : normal) / to_sun.y;
+  return lit * (max(facing, 0.0) + behind * vec3(0.62, 0.66, 0.30));
+}
+
 void main() {
+  float present = presence();
+  if (present < 0.25) discard;
   vec3 normal = normalize(gl_FrontFacing ? world_normal : -world_normal);
-  float facing = max(dot(normal, to_sun), 0.0);
-  float sun = facing > 0.0 ? facing * sunlit(normal) / to_sun.y : 0.0;
+  vec3 shaped = has_normal_map ? bumped(normal) : normal;
+  vec3 paint = albedo * surface_color;
+  if (has_image) paint *= texture(image, place).rgb;
   float sky = open_sky(world);
   sky = mix(0.2, 1.0, sky * sky);
-  // The ground throws a little warm light back up.
-  vec3 ambient = mix(vec3(0.44, 0.40, 0.35), kSkyShare * 1.4, 0.5 + 0.5 * normal.y);
-  color = vec4(albedo * (1.45 * kSunShare * sun + ambient * sky), 1.0);
+  // The ground throws a little warm light back up; a thin surface shows what comes from both sides.
+  float up = is_thin ? 0.35 * shaped.y + 0.2 : shaped.y;
+  vec3 ambient = mix(vec3(0.44, 0.40, 0.35), kSkyShare * 1.4, 0.5 + 0.5 * up);
+  vec3 sun = 1.45 * kSunShare * sunlight(normal, shaped);
+  color = vec4(paint * (sun + ambient * sky), present);
 }
 )";
 }
@@ -279,7 +346,11 @@ void main() {
 }
 
 std::string line_fragment() {
-  return flat_fragment();
+  return R"(
+in vec3 paint;
+out vec4 color;
+void main() { color = vec4(paint, 1.0); }
+)";
 }
 
 }  // namespace ramify::shaders

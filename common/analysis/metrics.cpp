@@ -83,13 +83,6 @@ bool has_roots_below(const Skeleton& s) {
   return false;
 }
 
-Skeleton above_ground(const Skeleton& s) {
-  std::vector<bool> keep(s.node_count());
-  for (std::size_t node = 0; node < s.node_count(); ++node)
-    keep[node] = s.is_root(node) || s.kind[node] == Kind::stem;
-  return subset(s, keep);
-}
-
 void measure_stem(const Anatomy& stem, Metrics& metrics) {
   measure_size(stem, metrics);
   measure_streams(stem, metrics);
@@ -102,6 +95,15 @@ void measure_stem(const Anatomy& stem, Metrics& metrics) {
 
 }  // namespace
 
+Skeleton living_stem(const Skeleton& skeleton) {
+  std::vector<bool> keep(skeleton.node_count());
+  for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
+    const bool is_stem = skeleton.is_root(node) || skeleton.kind[node] == Kind::stem;
+    keep[node] = is_stem && !skeleton.is_shed(node);
+  }
+  return subset(skeleton, keep);
+}
+
 Metrics measure(const Skeleton& skeleton) {
   const bool has_shed = std::any_of(skeleton.shed_step.begin(), skeleton.shed_step.end(),
                                     [](std::uint32_t step) { return step != kAlive; });
@@ -109,7 +111,7 @@ Metrics measure(const Skeleton& skeleton) {
   Metrics metrics;
   const Anatomy wood(skeleton);
   if (has_roots_below(skeleton)) {
-    const Skeleton stem = above_ground(skeleton);
+    const Skeleton stem = living_stem(skeleton);
     measure_stem(Anatomy(stem), metrics);
   } else {
     measure_stem(wood, metrics);

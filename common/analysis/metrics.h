@@ -62,6 +62,9 @@ struct Metrics {
 /// log n).
 Metrics measure(const Skeleton& skeleton);
 
+/// The part of a tree that is alive and no root below the ground; root nodes stay.
+Skeleton living_stem(const Skeleton& skeleton);
+
 /// What a metric is called and means.
 struct MetricInfo {
   std::string_view key;

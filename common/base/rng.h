@@ -24,6 +24,9 @@ enum class Stream : std::uint64_t {
   light,        // pathplan: what the light deals out, by level
   turn,         // pathplan: of a guiding vector, by node
   spheres,      // pathplan: the seed of the spheres that refine a crown
+  leaf,         // leaves: how one is turned, sized and coloured, by (axis, rank)
+  leaf_axis,    // leaves: where they begin along an axis and around it, by axis
+  projection,   // analysis: the directions of the scatter distance
 };
 
 class Rng {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "common/base/errors.h"
@@ -11,6 +12,7 @@
 #include "common/config/inheritance.h"
 #include "common/config/presets.h"
 #include "common/config/toml_writer.h"
+#include "common/format/embedded_config.h"
 
 namespace ramify {
 namespace {
@@ -33,6 +35,8 @@ Source find_source(const std::string& config, const fs::path& folder, const std:
   std::error_code error;
   if (fs::exists(path, error)) {
     const std::string name = folder.empty() ? config : path.string();
+    // The paths in an embedded config are those of the run that made the file: from its working folder.
+    if (may_embed_config(path)) return {name, {}, embedded_config(path)};
     return {name, path.parent_path(), read_file(path)};
   }
 
@@ -89,7 +93,20 @@ std::string origin_of(std::string key, const Origins& origins, const std::string
   return fallback;
 }
 
+/// Runs a check that knows only the keys below its table, and says where the table's key was set.
+void check_table(const std::string& table, const Job& job, const Origins& origins,
+                 const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const ConfigError& error) {
+    const std::string key = fmt::format("{}.{}", table, error.key());
+    throw ConfigError(origin_of(key, origins, job.name), key, error.problem());
+  }
+}
+
 std::vector<std::string> checked(const Job& job, const Origins& origins) {
+  check_table("bark", job, origins, [&] { check_bark(job.bark); });
+  check_table("leaves", job, origins, [&] { check_leaves(job.leaves); });
   if (job.mesher.sides_min > job.mesher.sides_max) {
     throw ConfigError(
         origin_of("mesher.sides_min", origins, job.name), "mesher.sides_min",
@@ -126,6 +143,8 @@ Table job_table(const AnyEngine& engine) {
   engine_row.child = [fields = &engine.fields]() -> const Table& { return *fields; };
   table.push_back(std::move(engine_row));
   table.push_back(Field<Job>("mesher", &Job::mesher, {.help = "skeleton to mesh, for every engine"}));
+  table.push_back(Field<Job>("bark", &Job::bark, {.help = "what the wood is dressed in, for every engine"}));
+  table.push_back(Field<Job>("leaves", &Job::leaves, {.help = "leaves on young wood, for every engine"}));
   return table;
 }
 

@@ -9,7 +9,7 @@
 #include "common/config/engine.h"
 #include "common/config/provenance.h"
 #include "common/config/toml_reader.h"
-#include "common/mesh/mesher.h"
+#include "common/mesh/tree_mesh.h"
 
 namespace ramify {
 
@@ -18,8 +18,11 @@ struct Job {
   const AnyEngine* engine = nullptr;
   std::shared_ptr<void> parameters;  // the engine's, seed and steps among them
   MesherOptions mesher;
+  BarkOptions bark;
+  LeafOptions leaves;
   std::vector<std::string> warnings;  // of the check, one line each
 
+  Looks looks() const { return {mesher, bark, leaves}; }
   std::uint64_t seed() const { return engine->seed(parameters.get()); }
   int steps() const { return engine->steps(parameters.get()); }
   RunResult run(const RunContext& context) const { return engine->run(parameters.get(), context); }
@@ -32,8 +35,9 @@ struct Override {
   std::string value;
 };
 
-/// Reads `config`, a preset's name or a file, with what it is based on, then the overrides; checks all of it.
-/// Throws ConfigError, or InputError where there is no such preset or file.
+/// Reads `config`, a preset's name, a TOML file or one that ramify made of a config (.glb, .gltf, .skel.ply),
+/// with what it is based on, then the overrides; checks all of it. Throws ConfigError, or InputError where
+/// there is no such preset or file.
 Job load_job(const EngineRegistry& registry, const std::string& config,
              std::span<const Override> overrides = {});
 

@@ -8,6 +8,7 @@
 #include "common/base/color.h"
 #include "common/base/errors.h"
 #include "common/mesh/gltf.h"
+#include "common/mesh/normals.h"
 
 namespace ramify {
 namespace {
@@ -221,7 +222,7 @@ class MeshAssembler {
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
       mesh_.triangles.push_back({base + corners[i], base + corners[i + 1], base + corners[i + 2]});
     }
-    add_attributes(primitive, positions.size(), to_world);
+    add_attributes(primitive, positions.size(), first_triangle, to_world);
     const bool is_known =
         primitive.material >= 0 && static_cast<std::size_t>(primitive.material) + 1 < mesh_.materials.size();
     const std::size_t material =
@@ -231,26 +232,28 @@ class MeshAssembler {
 
   static bool is_identity(const glm::dmat4& matrix) { return matrix == glm::dmat4(1.0); }
 
-  void add_attributes(const tinygltf::Primitive& primitive, std::size_t count, const glm::dmat4& to_world) {
+  void add_attributes(const tinygltf::Primitive& primitive, std::size_t count, std::size_t first_triangle,
+                      const glm::dmat4& to_world) {
     const std::size_t total = mesh_.positions.size();
     const auto index_of = [&](const char* attribute) {
       const auto found = primitive.attributes.find(attribute);
       return found == primitive.attributes.end() ? -1 : found->second;
     };
-    std::vector<Vec3f> normals;
     if (index_of("NORMAL") >= 0) {
-      normals = accessor_values<Vec3f>(model_, index_of("NORMAL"), TINYGLTF_TYPE_VEC3, name_);
+      auto normals = accessor_values<Vec3f>(model_, index_of("NORMAL"), TINYGLTF_TYPE_VEC3, name_);
       if (!is_identity(to_world)) {
         const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(to_world)));
         for (Vec3f& normal : normals) normal = Vec3f(normalized_or(turn * Vec3(normal), kUp));
       }
+      normals.resize(count, Vec3f(kUp));
+      mesh_.normals.insert(mesh_.normals.end(), normals.begin(), normals.end());
+    } else {
+      compute_normals(mesh_, total - count, first_triangle);
     }
-    normals.resize(count, Vec3f(0, 1, 0));
-    mesh_.normals.insert(mesh_.normals.end(), normals.begin(), normals.end());
 
     if (index_of("TEXCOORD_0") >= 0) {
       for (const glm::vec4& uv : unit_vectors(model_, index_of("TEXCOORD_0"), glm::vec4(0.0f), name_)) {
-        mesh_.uvs.emplace_back(uv);
+        mesh_.uvs.emplace_back(uv.x, 1.0f - uv.y);  // glTF counts from the upper edge
       }
     }
     mesh_.uvs.resize(total, Vec2f(0, 0));

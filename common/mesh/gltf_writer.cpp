@@ -155,6 +155,18 @@ int add_colors(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh, con
   return add_accessor(model, view, window.count, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
 }
 
+/// glTF's v counts from the image's upper edge.
+int add_uvs(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh, const Window& window) {
+  const auto write = [&mesh, window](const Sink& sink) {
+    write_converted(window.count, sink, [&](std::size_t i) {
+      const Vec2f& uv = mesh.uvs[window.first + i];
+      return Vec2f(uv.x, 1.0f - uv.y);
+    });
+  };
+  const int view = binary.add_view(window.count * sizeof(Vec2f), TINYGLTF_TARGET_ARRAY_BUFFER, write);
+  return add_accessor(model, view, window.count, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
+}
+
 int add_indices(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh, const MaterialRange& range,
                 const Window& window) {
   using Triangle = std::array<std::uint32_t, 3>;
@@ -184,7 +196,7 @@ void add_mesh(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh) {
         add_attribute(model, binary, mesh.positions, window, TINYGLTF_TYPE_VEC3);
     set_bounds(model.accessors.back(), std::span(mesh.positions).subspan(window.first, window.count));
     primitive.attributes["NORMAL"] = add_attribute(model, binary, mesh.normals, window, TINYGLTF_TYPE_VEC3);
-    primitive.attributes["TEXCOORD_0"] = add_attribute(model, binary, mesh.uvs, window, TINYGLTF_TYPE_VEC2);
+    primitive.attributes["TEXCOORD_0"] = add_uvs(model, binary, mesh, window);
     if (!mesh.tangents.empty() && !mesh.material(range).normal_map.is_empty()) {
       primitive.attributes["TANGENT"] =
           add_attribute(model, binary, mesh.tangents, window, TINYGLTF_TYPE_VEC4);

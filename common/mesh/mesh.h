@@ -42,6 +42,7 @@ struct Mesh {
   BulkVector<std::array<std::uint32_t, 3>> triangles;
   std::vector<MaterialRange> ranges;  // in order, covering all triangles
   std::vector<Material> materials;
+  std::vector<std::string> warnings;  // of the mesher, one line each
 
   std::size_t vertex_count() const { return positions.size(); }
   const Material& material(const MaterialRange& range) const { return materials[range.material]; }

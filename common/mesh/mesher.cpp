@@ -2,6 +2,7 @@
 
 #include "common/mesh/cones.h"
 #include "common/mesh/smooth.h"
+#include "common/mesh/watertight.h"
 
 namespace ramify {
 
@@ -9,10 +10,43 @@ const Table& MesherOptions::fields() {
   static const Table table = make_table<MesherOptions>({
       {"method",
        &MesherOptions::method,
-       {.help = "smooth: one swept tube an axis; cones: a cone an internode, a sphere a node",
-        .choices = {"smooth", "cones"}}},
+       {.help =
+            "smooth: one swept tube an axis; cones: a cone an internode, a sphere a node; watertight: one "
+            "closed surface, forks blended, as 3D printers need it",
+        .choices = {"smooth", "cones", "watertight"}}},
+      {"centre_line",
+       &MesherOptions::centre_line,
+       {.help = "smooth: polyline: straight between nodes, bends rounded; catmull-rom: curved through them",
+        .source = "Catmull & Rom 1974, centripetal",
+        .choices = {"polyline", "catmull-rom"}}},
       {"sides_min", &MesherOptions::sides_min, {.min = 3, .max = 64, .help = "sides of the thinnest twigs"}},
       {"sides_max", &MesherOptions::sides_max, {.min = 3, .max = 64, .help = "sides of the thickest axis"}},
+      {"root_flare",
+       &MesherOptions::root_flare,
+       {.max = 3,
+        .help = "smooth: how much wider a trunk without roots is at the ground, of its radius; 0: no flare"}},
+      {"voxel_size",
+       &MesherOptions::voxel_size,
+       {.min = 0,
+        .max = 10,
+        .unit = "m",
+        .help = "watertight: 0: a third of the thinnest twig, or what 50 million voxels allow"}},
+      {"blend",
+       &MesherOptions::blend,
+       {.min = 0,
+        .max = 2,
+        .help = "watertight: how wide forks blend, in radii of the lateral; 0: not at all",
+        .source = "Gourmel et al. 2013"}},
+      {"adaptivity",
+       &MesherOptions::adaptivity,
+       {.min = 0,
+        .max = 1,
+        .help =
+            "watertight: how far the surface may move to save triangles, in voxels; 0: as fine everywhere"}},
+      {"thin_twigs",
+       &MesherOptions::thin_twigs,
+       {.help = "watertight: twigs thinner than two voxels: leave_out, or tubes: each closed, for itself",
+        .choices = {"leave_out", "tubes"}}},
   });
   return table;
 }
@@ -23,6 +57,8 @@ Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options) {
       return smooth_mesh(skeleton, options);
     case MeshMethod::cones:
       return cones_mesh(skeleton, options);
+    case MeshMethod::watertight:
+      return watertight_mesh(skeleton, options);
   }
   return {};
 }

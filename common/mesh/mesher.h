@@ -7,12 +7,28 @@
 
 namespace ramify {
 
-enum class MeshMethod { smooth, cones };
+enum class MeshMethod { smooth, cones, watertight };
+
+/// Of a watertight mesh: twigs that its voxels cannot resolve.
+enum class ThinTwigs { leave_out, tubes };
+
+enum class CentreLine {
+  polyline,    // straight between the nodes, with rounded bends
+  catmull_rom  // a curve through the nodes
+};
 
 struct MesherOptions {
   MeshMethod method = MeshMethod::smooth;
-  int sides_min = 4;   // of the thinnest twigs
-  int sides_max = 12;  // of the thickest axis
+  CentreLine centre_line = CentreLine::polyline;
+  int sides_min = 3;        // of the thinnest twigs
+  int sides_max = 12;       // of the thickest axis
+  double root_flare = 0.8;  // how much wider the trunk is at the ground, of its own radius
+
+  // watertight
+  double voxel_size = 0.0;  // metres; 0: by the thinnest twig
+  double blend = 1.0;       // how wide forks blend, in radii of the lateral's base
+  double adaptivity = 0.1;  // how far the surface may move to save triangles, in voxels
+  ThinTwigs thin_twigs = ThinTwigs::leave_out;
 
   static const Table& fields();
 };

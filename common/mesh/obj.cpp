@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <ostream>
 
+#include "common/base/color.h"
 #include "common/base/decimal.h"
 #include "common/base/ordered_output.h"
 
@@ -80,6 +83,39 @@ std::string normal_map_name(const std::string& stem, const Material& material) {
   return fmt::format("{}-{}-normal.png", stem, material.name);
 }
 
+/// Linear: the material's colour times the mean of its vertices'.
+Vec3f mean_color(const Mesh& mesh, std::size_t material) {
+  Vec3 sum(0.0);
+  std::size_t count = 0;
+  for (const MaterialRange& range : mesh.ranges) {
+    if (range.material != material || mesh.colors.empty()) continue;
+    for (std::size_t i = range.first_triangle; i < range.first_triangle + range.triangle_count; ++i) {
+      const auto& color = mesh.colors[mesh.triangles[i][0]];
+      for (int axis = 0; axis < 3; ++axis) {
+        sum[axis] += linear_of(static_cast<float>(color[static_cast<std::size_t>(axis)]) / 255.0f);
+      }
+    }
+    count += range.triangle_count;
+  }
+  const Vec3f& own = mesh.materials[material].color;
+  return count == 0 ? own : own * Vec3f(sum / static_cast<double>(count));
+}
+
+Image tinted(const Image& image, const Vec3f& color) {
+  std::array<std::array<std::uint8_t, 256>, 3> tints;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      const float light = color[static_cast<int>(axis)] * linear_of(static_cast<float>(byte) / 255.0f);
+      tints[axis][byte] = static_cast<std::uint8_t>(std::lround(255.0f * encoded_of(std::min(light, 1.0f))));
+    }
+  }
+  Image result = image;
+  for (std::size_t i = 0; i < result.rgba.size(); i += 4) {
+    for (std::size_t axis = 0; axis < 3; ++axis) result.rgba[i + axis] = tints[axis][image.rgba[i + axis]];
+  }
+  return result;
+}
+
 }  // namespace
 
 void write_obj(const Mesh& mesh, const Provenance& provenance, const std::string& material_library,
@@ -97,18 +133,22 @@ void write_obj(const Mesh& mesh, const Provenance& provenance, const std::string
 
 std::vector<ImageFile> image_files(const Mesh& mesh, const std::string& stem) {
   std::vector<ImageFile> files;
-  for (const Material& material : mesh.materials) {
-    if (!material.image.is_empty()) files.push_back({image_name(stem, material), &material.image});
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    const Material& material = mesh.materials[i];
+    if (!material.image.is_empty()) {
+      files.push_back({image_name(stem, material), tinted(material.image, mean_color(mesh, i))});
+    }
     if (!material.normal_map.is_empty()) {
-      files.push_back({normal_map_name(stem, material), &material.normal_map});
+      files.push_back({normal_map_name(stem, material), material.normal_map});
     }
   }
   return files;
 }
 
 void write_mtl(const Mesh& mesh, const std::string& stem, std::ostream& out) {
-  for (const Material& material : mesh.materials) {
-    const Vec3f& color = material.color;
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    const Material& material = mesh.materials[i];
+    const Vec3f color = material.image.is_empty() ? mean_color(mesh, i) : Vec3f(1.0f);
     out << fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nKs 0 0 0\nillum 1\n", material.name, color.r,
                        color.g, color.b);
     if (!material.image.is_empty()) {

@@ -18,10 +18,11 @@ void write_obj(const Mesh& mesh, const Provenance& provenance, const std::string
 /// An image beside the .mtl, to be written as PNG.
 struct ImageFile {
   std::string name;
-  const Image* image = nullptr;
+  Image image;
 };
 
-/// The images that the .mtl refers to: STEM-MATERIAL.png and STEM-MATERIAL-normal.png.
+/// The images that the .mtl refers to: STEM-MATERIAL.png and STEM-MATERIAL-normal.png. OBJ has no colours of
+/// vertices: their mean is in the image.
 std::vector<ImageFile> image_files(const Mesh& mesh, const std::string& stem);
 
 /// The .mtl: one material each of the mesh's, with map_Kd, norm and, of cutouts, map_d. `stem` as above.

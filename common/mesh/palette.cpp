@@ -20,7 +20,11 @@ constexpr std::array kMuted = {color_of(0x332288), color_of(0xcc6677), color_of(
                                color_of(0x882255), color_of(0x44aa99), color_of(0xddcc77)};
 
 constexpr std::array kBark = {color_of(0xa5826d), color_of(0x8f6f5c), color_of(0x7d6759), color_of(0x736356)};
-// The diameters that the first and last colour of kBark stand for, metres.
+constexpr std::array kSmoothBark = {color_of(0x7d5d4a), color_of(0x8a7668), color_of(0x9d968c),
+                                    color_of(0xa8a49b)};
+constexpr std::array kPlatedBark = {color_of(0xa08a62), color_of(0xa47b57), color_of(0x96694d),
+                                    color_of(0x84685a)};
+// The diameters that the first and last of these colours stand for, metres.
 constexpr double kTwigDiameter = 0.006;
 constexpr double kTrunkDiameter = 0.25;
 
@@ -35,6 +39,11 @@ Color interpolated(std::span<const Color> colors, double t) {
           std::lerp(low.b, high.b, weight), 1.0f};
 }
 
+Color color_of_width(std::span<const Color> colors, double diameter) {
+  if (!(diameter > 0.0)) return colors.front();
+  return interpolated(colors, std::log(diameter / kTwigDiameter) / std::log(kTrunkDiameter / kTwigDiameter));
+}
+
 }  // namespace
 
 Color sequential_color(double t) {
@@ -46,8 +55,15 @@ Color categorical_color(std::size_t index) {
 }
 
 Color bark_color(double diameter) {
-  if (!(diameter > 0.0)) return kBark.front();
-  return interpolated(kBark, std::log(diameter / kTwigDiameter) / std::log(kTrunkDiameter / kTwigDiameter));
+  return color_of_width(kBark, diameter);
+}
+
+Color smooth_bark_color(double diameter) {
+  return color_of_width(kSmoothBark, diameter);
+}
+
+Color plated_bark_color(double diameter) {
+  return color_of_width(kPlatedBark, diameter);
 }
 
 }  // namespace ramify

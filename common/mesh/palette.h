@@ -17,4 +17,9 @@ Color categorical_color(std::size_t index);
 /// Bark of a stem of this diameter, metres: grey-brown where thick, redder and lighter towards the twigs.
 Color bark_color(double diameter);
 
+/// The same of smooth-barked trees, beech for instance (twigs brown, stems grey), and of pines (twigs
+/// yellowish, stems reddish grey).
+Color smooth_bark_color(double diameter);
+Color plated_bark_color(double diameter);
+
 }  // namespace ramify

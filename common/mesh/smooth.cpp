@@ -1,247 +1,289 @@
 #include "common/mesh/smooth.h"
 
 #include <algorithm>
-#include <span>
+#include <array>
+#include <vector>
 
 #include "common/base/parallel.h"
+#include "common/mesh/tube_plan.h"
 #include "common/mesh/wood.h"
 
 namespace ramify {
 namespace {
 
-// Rings nearer than this, in diameters, would cut into each other where thick wood bends in short internodes;
-// nodes between stay well inside the wood.
-constexpr double kRingSpacing = 0.75;
+constexpr std::size_t kGrain = 256;
 
-// A bend's ring is widened to keep the tube's thickness, but no more than at a right angle.
-constexpr double kMiterMax = std::numbers::sqrt2;
+// Of a round tip, in radii of its branch: where its ring stands, how wide it is, and where it ends.
+constexpr double kTipRing = 0.6;
+constexpr double kTipRingRadius = 0.75;
+constexpr double kTipLength = 1.0;
+constexpr double kPointedTipLength = 2.0;
 
-/// The nodes of one tube, base to tip, as a range of `Tubes::nodes`, and where its part of the mesh begins.
-struct Tube {
-  std::size_t first = 0;
-  std::size_t count = 0;
-  std::uint32_t sides = 0;
-  bool starts_at_root = false;
-  std::size_t first_vertex = 0;
-  std::size_t first_triangle = 0;
-};
-
-struct Tubes {
-  std::vector<std::uint32_t> nodes;
-  std::vector<Tube> tubes;
-};
-
-// A ring repeats its first vertex at the end, where u jumps from 1 to 0.
-std::size_t ring_vertices(const Tube& tube) {
-  return tube.sides + 1;
-}
-
-// The rings, the tip and, at a root, the flat end with a rim of its own normals.
-std::size_t vertex_count(const Tube& tube) {
-  return tube.count * ring_vertices(tube) + tube.sides + (tube.starts_at_root ? tube.sides + 1 : 0);
-}
-
-std::size_t triangle_count(const Tube& tube) {
-  return (tube.count - 1) * tube.sides * 2 + tube.sides + (tube.starts_at_root ? tube.sides : 0);
-}
-
-/// Chains the internodes of each axis, leaving out nodes that crowd. A tube begins at the node that its first
-/// internode grows from.
-Tubes trace_tubes(const Skeleton& skeleton) {
-  const std::size_t count = skeleton.node_count();
-  std::vector<std::uint32_t> continuation(count, kNoParent);
-  std::vector<std::uint32_t> founders;
-  for (std::size_t node = 0; node < count; ++node) {
-    if (skeleton.is_root(node)) continue;
-    const std::uint32_t parent = skeleton.parent[node];
-    if (skeleton.axis[node] == skeleton.axis[parent]) {
-      continuation[parent] = static_cast<std::uint32_t>(node);
-    } else {
-      founders.push_back(static_cast<std::uint32_t>(node));
-    }
-  }
-
-  Tubes result;
-  result.nodes.reserve(count + founders.size());
-  const auto trace = [&](std::uint32_t base, std::uint32_t first, bool starts_at_root) {
-    Tube tube;
-    tube.first = result.nodes.size();
-    tube.starts_at_root = starts_at_root;
-    result.nodes.push_back(base);
-    for (std::uint32_t node = first; node != kNoParent; node = continuation[node]) {
-      const double apart = glm::length(skeleton.position[node] - skeleton.position[result.nodes.back()]);
-      const bool is_crowded = apart < kRingSpacing * skeleton.diameter[node];
-      const bool is_tip = continuation[node] == kNoParent;
-      if (is_tip || !is_crowded) result.nodes.push_back(node);
-    }
-    tube.count = result.nodes.size() - tube.first;
-    result.tubes.push_back(tube);
-  };
-  for (std::uint32_t root = 0; root < skeleton.root_count(); ++root) {
-    if (continuation[root] != kNoParent) trace(root, continuation[root], true);
-  }
-  // Laterals at a root start inside the trunk's wood, like all others.
-  for (const std::uint32_t founder : founders) trace(skeleton.parent[founder], founder, false);
-  return result;
-}
-
-/// Writes one tube into its own part of the mesh.
-class TubeBuilder {
- public:
-  TubeBuilder(const Skeleton& skeleton, const Tube& tube, std::span<const std::uint32_t> nodes, Mesh& mesh)
-      : skeleton_(skeleton), tube_(tube), nodes_(nodes), mesh_(mesh) {}
-
-  void build() {
-    Vec3 previous_tangent = tangent(0);
-    Vec3 side = any_perpendicular(previous_tangent);
-    double v = 0.0;
-    for (std::size_t ring = 0; ring < nodes_.size(); ++ring) {
-      const Vec3 along = tangent(ring);
-      side = transported(side, previous_tangent, along);
-      previous_tangent = along;
-      if (ring > 0) {
-        const double girth = std::numbers::pi * (radius(ring) + radius(ring - 1));
-        v += glm::length(position(ring) - position(ring - 1)) / girth;
+/// Points of a circle of so many sides, one a side. O(1) after the first call.
+const Vec2f* unit_circle(std::uint32_t sides) {
+  constexpr std::uint32_t most = 128;
+  struct Circles {
+    std::array<Vec2f, most*(most + 1) / 2> points;
+    Circles() {
+      for (std::uint32_t n = 1; n <= most; ++n) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const double angle = 2.0 * std::numbers::pi * i / n;
+          points[n * (n - 1) / 2 + i] = {static_cast<float>(std::cos(angle)),
+                                         static_cast<float>(std::sin(angle))};
+        }
       }
-      add_ring(ring, along, side, static_cast<float>(v));
-      if (ring > 0) join_rings(ring);
     }
-    add_tip(previous_tangent, static_cast<float>(v));
-    if (tube_.starts_at_root) add_flat_end();
+  };
+  static const Circles circles;
+  return &circles.points[sides * (sides - 1) / 2];
+}
+
+/// Writes tubes into their parts of the mesh, one after the other.
+class TubeWriter {
+ public:
+  TubeWriter(const TubePlan& plan, Mesh& mesh) : plan_(plan), mesh_(mesh) {}
+
+  void write(const Tube& tube) {
+    tube_ = &tube;
+    collect_knots(plan_, tube, knots_);
+    Fork fork;
+    if (!tube.is_closed) {
+      fork = fork_at(plan_, tube);
+      move_base(fork);
+    }
+    points_.clear();
+    flare_ = trace_tube(plan_, tube, knots_, points_);
+    vertex_ = tube.first_vertex;
+    triangle_ = tube.first_triangle;
+    along_ = knots_[0].along;
+    side_ = any_perpendicular(along_);
+    v_ = 0.0;
+    from_base_ = 0.0;
+    if (tube.collar > 0) write_collar(fork);
+    write_rings();
+    write_tip();
+    if (tube.is_closed) write_flat_end();
   }
 
  private:
-  Vec3 position(std::size_t ring) const { return skeleton_.position[nodes_[ring]]; }
-
-  /// A lateral is as wide at its base as at its first node, not as the parent there.
-  double radius(std::size_t ring) const {
-    const bool is_lateral_base = ring == 0 && !tube_.starts_at_root;
-    return 0.5 * skeleton_.diameter[nodes_[is_lateral_base ? 1 : ring]];
+  void move_base(const Fork& fork) {
+    knots_[0].position = fork.center;
+    measure(knots_);
+    if (tube_->collar > 0) knots_[1].room *= kRoomBesideCollar;
   }
 
-  Vec3 direction(std::size_t ring) const {  // of the internode that ends at `ring`
-    return normalized_or(position(ring) - position(ring - 1), kUp, 1e-12);
-  }
-
-  /// Halfway between the internodes on both sides of a ring.
-  Vec3 tangent(std::size_t ring) const {
-    if (ring == 0) return direction(1);
-    if (ring + 1 == nodes_.size()) return direction(ring);
-    return normalized_or(direction(ring) + direction(ring + 1), direction(ring + 1));
-  }
-
-  /// How fast the tube narrows at a ring: lost radius a metre.
-  double taper(std::size_t ring) const {
-    const std::size_t low = ring == 0 ? 0 : ring - 1;
-    const std::size_t high = std::min(ring + 1, nodes_.size() - 1);
-    const double length = glm::length(position(high) - position(low));
-    return length > 1e-12 ? (radius(low) - radius(high)) / length : 0.0;
-  }
-
-  void set_vertex(std::size_t vertex, std::size_t ring, const Vec3& at, const Vec3& normal, Vec2f uv) {
-    mesh_.positions[vertex] = Vec3f(at);
+  void set_vertex(std::size_t vertex, const Vec3& position, const Vec3& normal, double u, double v,
+                  std::uint32_t node) {
+    mesh_.positions[vertex] = Vec3f(position);
     mesh_.normals[vertex] = glm::normalize(Vec3f(normal));
-    mesh_.uvs[vertex] = uv;
-    // The base ring shows the same internode as the one above it.
-    mesh_.internodes[vertex] = nodes_[std::max<std::size_t>(ring, 1)];
+    mesh_.uvs[vertex] = {static_cast<float>(u), static_cast<float>(v)};
+    mesh_.internodes[vertex] = node;
   }
 
-  /// What to add to a ring's offset `outwards` so that a tube keeps its thickness round a bend: the ring is
-  /// stretched, in the plane of the bend, by 1 / cos of half the turn.
-  Vec3 mitered(std::size_t ring, const Vec3& outwards) const {
-    if (ring == 0 || ring + 1 == nodes_.size()) return outwards;
-    const Vec3 bend = direction(ring) - direction(ring + 1);
-    const double half_sine = 0.5 * glm::length(bend);
-    if (half_sine < 1e-6) return outwards;
-    const double cosine = std::sqrt(std::max(0.0, 1.0 - half_sine * half_sine));
-    const double stretch = std::min(1.0 / std::max(cosine, 1e-6), kMiterMax) - 1.0;
-    const Vec3 axis = bend / (2.0 * half_sine);
-    return outwards + axis * (stretch * glm::dot(outwards, axis));
+  void add_triangle(std::size_t a, std::size_t b, std::size_t c) {
+    mesh_.triangles[triangle_++] = {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                    static_cast<std::uint32_t>(c)};
   }
 
-  void add_ring(std::size_t ring, const Vec3& along, const Vec3& side, float v) {
-    const Vec3 across = glm::cross(along, side);
-    const double r = radius(ring);
-    const double slope = taper(ring);
-    const std::size_t first = ring_start(ring);
-    for (std::uint32_t i = 0; i <= tube_.sides; ++i) {
-      const double angle = 2.0 * std::numbers::pi * (i % tube_.sides) / tube_.sides;
-      const Vec3 outwards = side * std::cos(angle) + across * std::sin(angle);
-      set_vertex(first + i, ring, position(ring) + mitered(ring, outwards) * r, outwards + along * slope,
-                 {static_cast<float>(i) / static_cast<float>(tube_.sides), v});
+  /// Joins two rings; the lower one may have twice as many sides.
+  void join(std::size_t low, std::uint32_t low_sides, std::size_t high, std::uint32_t high_sides) {
+    if (low_sides == high_sides) {
+      for (std::uint32_t i = 0; i < low_sides; ++i) {
+        add_triangle(low + i, low + i + 1, high + i + 1);
+        add_triangle(low + i, high + i + 1, high + i);
+      }
+      return;
+    }
+    for (std::uint32_t i = 0; i < high_sides; ++i) {
+      add_triangle(low + 2 * i, low + 2 * i + 1, high + i);
+      add_triangle(low + 2 * i + 1, high + i + 1, high + i);
+      add_triangle(low + 2 * i + 1, low + 2 * i + 2, high + i + 1);
     }
   }
 
-  void join_rings(std::size_t ring) {
-    std::size_t triangle = tube_.first_triangle + (ring - 1) * tube_.sides * 2;
-    for (std::uint32_t i = 0; i < tube_.sides; ++i) {
-      const auto low = static_cast<std::uint32_t>(ring_start(ring - 1) + i);
-      const auto high = static_cast<std::uint32_t>(ring_start(ring) + i);
-      mesh_.triangles[triangle++] = {low, low + 1, high + 1};
-      mesh_.triangles[triangle++] = {low, high + 1, high};
+  /// The rings from the parent's surface to the lateral's own.
+  void write_collar(const Fork& fork) {
+    const Knot& end = knots_[1];
+    const std::uint32_t sides = tube_->sides;
+    const double radius = knots_[0].radius;
+    Lateral lateral{.along = along_, .length = end.length, .radius = radius};
+    if (plan_.line == CentreLine::catmull_rom)
+      lateral.bow = spline_tangent(knots_, 1) - end.along * end.length;
+    // A corner in the plane of the fork: the collar is the same on both sides.
+    const Vec3 up = fork.along - along_ * glm::dot(fork.along, along_);
+    side_ = normalized_or(up, side_, 1e-3);
+    side_ = glm::normalize(side_ - along_ * glm::dot(side_, along_));
+
+    const Vec3 across = glm::cross(along_, side_);
+    const Vec2f* circle = unit_circle(sides);
+    const double girth = 2.0 * std::numbers::pi * radius;
+    const bool shows_parent = !plan_.skeleton->is_root(fork.node);
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+      const Vec2f& turn = circle[i % sides];
+      const CollarLine line = collar_line(fork, lateral, side_ * double{turn.x} + across * double{turn.y});
+      const double top = glm::dot(line.top - fork.center, along_);
+      const double length = glm::length(line.crotch - line.foot) + glm::length(line.top - line.crotch);
+      for (std::uint32_t ring = 0; ring <= tube_->collar; ++ring) {
+        const double t = static_cast<double>(ring) / tube_->collar;
+        const SurfacePoint point = line.at(t);
+        // What grows over a branch's base is its parent's wood.
+        const std::uint32_t node = ring == 0 && shows_parent ? fork.node : end.node;
+        set_vertex(vertex_ + ring * (sides + 1) + i, point.position, point.normal,
+                   static_cast<double>(i) / sides, (top - (1.0 - t) * length) / girth, node);
+      }
+    }
+    for (std::uint32_t ring = 0; ring < tube_->collar; ++ring) {
+      join(vertex_ + ring * (sides + 1), sides, vertex_ + (ring + 1) * (sides + 1), sides);
+    }
+    vertex_ += (tube_->collar + 1) * (sides + 1);
+  }
+
+  /// How fast the tube narrows at a point: lost radius a metre.
+  double taper(std::size_t i) const {
+    const LinePoint& low = points_[i == 0 ? 0 : i - 1];
+    const LinePoint& high = points_[std::min(i + 1, points_.size() - 1)];
+    const double length = glm::length(high.position - low.position);
+    return length > plan_.thinnest ? (low.radius - high.radius) / length : 0.0;
+  }
+
+  void write_rings() {
+    const std::size_t count = points_.size() - (tube_->is_pointed ? 1 : 0);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const LinePoint& point = points_[i];
+      if (i > 0) {
+        const double length = glm::length(point.position - points_[i - 1].position);
+        v_ += length / (std::numbers::pi * (point.radius + points_[i - 1].radius));
+        from_base_ += length;
+        side_ = transported(side_, along_, point.along);
+        along_ = point.along;
+      }
+      if (i >= count || (i == 0 && tube_->collar > 0)) continue;
+      const std::size_t ring = vertex_;
+      const bool is_wide = i < tube_->flare_rings;
+      const std::uint32_t sides = tube_->sides * (is_wide ? 2 : 1);
+      // The first ring shows the same internode as the one above it.
+      const std::uint32_t node = i == 0 ? knots_[1].node : point.node;
+      if (is_wide) {
+        write_flared_ring(point, sides, node);
+      } else {
+        write_ring(point, taper(i), node);
+      }
+      if (i > 0) {
+        const std::uint32_t low_sides = tube_->sides * (i <= tube_->flare_rings ? 2 : 1);
+        join(ring - low_sides - 1, low_sides, ring, sides);
+      }
     }
   }
 
-  /// A cone as long as it is wide. Its point has a vertex for each side, so that shading runs round it.
-  void add_tip(const Vec3& along, float v) {
-    const std::size_t last = nodes_.size() - 1;
-    const std::size_t ring = ring_start(last);
-    const std::size_t points = ring_start(nodes_.size());
-    const Vec3 apex = position(last) + along * (2.0 * radius(last));
-    std::size_t triangle = tube_.first_triangle + last * tube_.sides * 2;
-    for (std::uint32_t i = 0; i < tube_.sides; ++i) {
+  void write_ring(const LinePoint& point, double slope, std::uint32_t node) {
+    const std::uint32_t sides = tube_->sides;
+    const Vec3 across = glm::cross(along_, side_);
+    const double shorten = 1.0 / std::sqrt(1.0 + slope * slope);
+    const Vec3f center(point.position);
+    const Vec3f side_offset(side_ * point.radius);
+    const Vec3f across_offset(across * point.radius);
+    const Vec3f lean(along_ * (slope * shorten));
+    const Vec3f side_normal(side_ * shorten);
+    const Vec3f across_normal(across * shorten);
+    const Vec2f* circle = unit_circle(sides);
+    const float step = 1.0f / static_cast<float>(sides);
+    const auto v = static_cast<float>(v_);
+    Vec3f* positions = &mesh_.positions[vertex_];
+    Vec3f* normals = &mesh_.normals[vertex_];
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      positions[i] = center + side_offset * circle[i].x + across_offset * circle[i].y;
+      normals[i] = lean + side_normal * circle[i].x + across_normal * circle[i].y;
+    }
+    positions[sides] = positions[0];
+    normals[sides] = normals[0];
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+      mesh_.uvs[vertex_ + i] = {static_cast<float>(i) * step, v};
+      mesh_.internodes[vertex_ + i] = node;
+    }
+    vertex_ += sides + 1;
+  }
+
+  void write_flared_ring(const LinePoint& point, std::uint32_t sides, std::uint32_t node) {
+    const Vec3 across = glm::cross(along_, side_);
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * (i % sides) / sides;
+      const Vec3 outwards = side_ * std::cos(angle) + across * std::sin(angle);
+      const Vec3 around = across * std::cos(angle) - side_ * std::sin(angle);
+      const RootFlare::Widening wide = flare_.at(from_base_ / flare_.height, angle);
+      const Vec3 normal = outwards - around * (wide.by_angle / wide.factor) -
+                          along_ * (wide.by_share * point.radius / flare_.height);
+      set_vertex(vertex_++, point.position + outwards * (point.radius * wide.factor), normal,
+                 static_cast<double>(i) / sides, v_, node);
+    }
+  }
+
+  /// Rounded, or a cone. Its point has a vertex for each side, so that shading runs round it.
+  void write_tip() {
+    const LinePoint last = points_.back();
+    const std::uint32_t sides = tube_->sides;
+    double length = tube_->is_pointed ? 0.0 : kPointedTipLength * last.radius;
+    if (tube_->has_round_tip()) {
+      const double v = v_;
+      LinePoint ring = last;
+      ring.position += along_ * (kTipRing * last.radius);
+      ring.radius *= kTipRingRadius;
+      v_ += kTipRing / (2.0 * std::numbers::pi);
+      write_ring(ring, 1.0, last.node);
+      join(vertex_ - 2 * (sides + 1), sides, vertex_ - (sides + 1), sides);
+      v_ = v;
+      length = kTipLength * last.radius;
+    }
+    const std::size_t ring = vertex_ - (sides + 1);
+    const Vec3 apex = last.position + along_ * length;
+    const double v = v_ + length / (2.0 * std::numbers::pi * last.radius);
+    for (std::uint32_t i = 0; i < sides; ++i) {
       const Vec3 between = Vec3(mesh_.normals[ring + i]) + Vec3(mesh_.normals[ring + i + 1]);
-      set_vertex(points + i, last, apex, normalized_or(between, along) + along,
-                 {(static_cast<float>(i) + 0.5f) / static_cast<float>(tube_.sides), v + 0.3f});
-      const auto low = static_cast<std::uint32_t>(ring + i);
-      mesh_.triangles[triangle++] = {low, low + 1, static_cast<std::uint32_t>(points + i)};
+      const Vec3 sideways = normalized_or(between, along_);
+      add_triangle(ring + i, ring + i + 1, vertex_);
+      set_vertex(vertex_++, apex, tube_->is_pointed ? sideways : sideways + along_, (i + 0.5) / sides, v,
+                 last.node);
     }
   }
 
-  /// Closes a root's end with a fan that faces down the trunk.
-  void add_flat_end() {
-    const std::size_t center = ring_start(nodes_.size()) + tube_.sides;
-    const std::size_t ring = ring_start(0);
-    const Vec3 down = -tangent(0);
-    set_vertex(center, 0, position(0), down, {0.5f, 0.0f});
-    std::size_t triangle = tube_.first_triangle + (nodes_.size() - 1) * tube_.sides * 2 + tube_.sides;
-    for (std::uint32_t i = 0; i < tube_.sides; ++i) {
-      const std::size_t rim = center + 1 + i;
-      set_vertex(rim, 0, Vec3(mesh_.positions[ring + i]), down, mesh_.uvs[ring + i]);
-      const auto next = static_cast<std::uint32_t>(center + 1 + (i + 1) % tube_.sides);
-      mesh_.triangles[triangle++] = {static_cast<std::uint32_t>(center), next,
-                                     static_cast<std::uint32_t>(rim)};
+  /// Closes a trunk's base with a fan that faces down.
+  void write_flat_end() {
+    const std::uint32_t sides = tube_->sides * (tube_->flare_rings > 0 ? 2 : 1);
+    const std::size_t ring = tube_->first_vertex;
+    const std::size_t center = vertex_;
+    const Vec3 down = -knots_[0].along;
+    const std::uint32_t node = knots_[1].node;
+    set_vertex(vertex_++, knots_[0].position, down, 0.5, 0.0, node);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const Vec2f uv = mesh_.uvs[ring + i];
+      set_vertex(vertex_++, Vec3(mesh_.positions[ring + i]), down, uv.x, uv.y, node);
+      add_triangle(center, center + 1 + (i + 1) % sides, center + 1 + i);
     }
   }
 
-  std::size_t ring_start(std::size_t ring) const { return tube_.first_vertex + ring * ring_vertices(tube_); }
-
-  const Skeleton& skeleton_;
-  const Tube& tube_;
-  std::span<const std::uint32_t> nodes_;
+  const TubePlan& plan_;
   Mesh& mesh_;
+  const Tube* tube_ = nullptr;
+  std::vector<Knot> knots_;  // scratch, like the two below
+  std::vector<LinePoint> points_;
+  RootFlare flare_;
+  std::size_t vertex_ = 0;  // the next one
+  std::size_t triangle_ = 0;
+  Vec3 along_ = kUp;  // of the last ring
+  Vec3 side_ = kUp;
+  double v_ = 0.0;
+  double from_base_ = 0.0;
 };
 
 }  // namespace
 
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options) {
-  Tubes tubes = trace_tubes(skeleton);
-  const double greatest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  for (Tube& tube : tubes.tubes) {
-    tube.sides = side_count(skeleton.diameter[tubes.nodes[tube.first + 1]], greatest, options);
-    tube.first_vertex = vertices;
-    tube.first_triangle = triangles;
-    vertices += vertex_count(tube);
-    triangles += triangle_count(tube);
-  }
-
-  Mesh mesh = wood_of_size(vertices, triangles);
-  parallel_for(tubes.tubes.size(), 64, [&](std::size_t begin, std::size_t end) {
+  if (skeleton.internode_count() == 0) return {};
+  const TubePlan plan = plan_tubes(skeleton, options);
+  Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count);
+  parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    TubeWriter writer(plan, mesh);
     for (std::size_t i = begin; i < end; ++i) {
-      const Tube& tube = tubes.tubes[i];
-      TubeBuilder(skeleton, tube, std::span(tubes.nodes).subspan(tube.first, tube.count), mesh).build();
+      if (plan.tubes[i].rings > 0) writer.write(plan.tubes[i]);
     }
   });
   return mesh;

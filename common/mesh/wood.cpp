@@ -28,11 +28,14 @@ Mesh wood_of_size(std::size_t vertices, std::size_t triangles) {
   mesh.uvs.resize(vertices);
   mesh.internodes.resize(vertices);
   mesh.triangles.resize(triangles);
-  if (triangles > 0) {
-    mesh.materials.push_back(bark_material());
-    mesh.ranges.push_back({0, 0, triangles});
-  }
+  finish_wood(mesh);
   return mesh;
+}
+
+void finish_wood(Mesh& mesh) {
+  if (mesh.triangles.empty()) return;
+  mesh.materials.push_back(bark_material());
+  mesh.ranges.push_back({0, 0, mesh.triangles.size()});
 }
 
 std::uint32_t side_count(double diameter, double greatest, const MesherOptions& options) {

@@ -14,6 +14,9 @@ namespace ramify {
 /// has no material.
 Mesh wood_of_size(std::size_t vertices, std::size_t triangles);
 
+/// Makes all triangles bark; a mesh without triangles stays without material.
+void finish_wood(Mesh& mesh);
+
 /// Sides of a tube that is `diameter` thick in a tree whose thickest wood is `greatest`: in proportion to the
 /// root of the width, so that the error of the silhouette is spread evenly.
 std::uint32_t side_count(double diameter, double greatest, const MesherOptions& options);

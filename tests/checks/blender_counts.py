@@ -18,6 +18,11 @@ for path in sys.argv[sys.argv.index("--") + 1:]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     if path.endswith(".obj"):
         bpy.ops.wm.obj_import(filepath=path)
+    elif path.endswith(".stl"):
+        if hasattr(bpy.ops.wm, "stl_import"):  # from Blender 4.1 on
+            bpy.ops.wm.stl_import(filepath=path)
+        else:
+            bpy.ops.import_mesh.stl(filepath=path)
     else:
         bpy.ops.import_scene.gltf(filepath=path)
     print("triangles", path, sum(triangle_count(o.data) for o in bpy.data.objects if o.type == "MESH"))

@@ -63,3 +63,37 @@ TEST_CASE("picture: more columns than images make one row") {
   CHECK(row.height == 1);
   CHECK(row.pixel(3, 0)[2] == images[1].pixel(1, 0)[2]);
 }
+
+TEST_CASE("picture: a PNG with as few channels as it needs reads back") {
+  const std::vector<std::vector<std::uint8_t>> pixels = {
+      {7, 7, 7, 255, 200, 200, 200, 255}, {1, 2, 3, 255, 4, 5, 6, 255}, {1, 2, 3, 0, 4, 5, 6, 77}};
+  const char color_types[] = {0, 2, 6};  // grey, RGB, RGBA
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::string png = png_bytes({2, 1, pixels[i]});
+    CHECK(png[25] == color_types[i]);
+    const Image again = decoded_image(png, "a.png");
+    CHECK(again.width == 2);
+    CHECK(again.height == 1);
+    CHECK(again.rgba == pixels[i]);
+  }
+}
+
+TEST_CASE("picture: images that cannot be read are told in a line, whatever they claim") {
+  const auto error_of = [](const std::string& bytes) {
+    try {
+      decoded_image(bytes, "a.png");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const std::string png = png_bytes(counting_image(16, 16, 3));
+  CHECK(error_of("").rfind("a.png: no PNG or JPEG image: ", 0) == 0);
+  CHECK(error_of("garbage").rfind("a.png: no PNG or JPEG image: ", 0) == 0);
+  CHECK(error_of(png.substr(0, png.size() / 2)).rfind("a.png: damaged image: ", 0) == 0);
+  std::string lying = png;
+  lying.replace(16, 8, std::string("\0\0\x1f\xff\0\0\x1f\xff", 8));
+  CHECK(error_of(lying).rfind("a.png: claims 8191 x 8191 pixels in ", 0) == 0);
+  lying.replace(16, 8, std::string("\0\0\xff\xff\0\0\0\1", 8));
+  CHECK(error_of(lying) == "a.png: 65535 x 1 pixels (at most 8192 x 8192)");
+}

@@ -13,6 +13,30 @@ using namespace ramify::test;
 
 namespace {
 
+Skeleton pole_of_width(int internodes, double diameter) {
+  Skeleton s = pole(internodes);
+  for (double& d : s.diameter) d = diameter;
+  return s;
+}
+
+/// A binary tree whose internodes are much longer than wide, as on real trees.
+Skeleton slim_tree(int depth) {
+  Skeleton s = binary_tree(depth);
+  for (double& d : s.diameter) d *= 0.1;
+  return s;
+}
+
+/// Well inside the cylinder of an internode.
+bool is_in_wood(const Skeleton& s, const Vec3& point) {
+  for (std::size_t node = s.root_count(); node < s.node_count(); ++node) {
+    const Vec3 along = s.along(node);
+    const Vec3 offset = point - s.position[s.parent[node]];
+    const double t = std::clamp(glm::dot(offset, along) / glm::dot(along, along), 0.0, 1.0);
+    if (glm::length(offset - along * t) < 0.45 * s.diameter[node]) return true;
+  }
+  return false;
+}
+
 Vec3f corner(const Mesh& mesh, std::size_t triangle, std::size_t i) {
   return mesh.positions[mesh.triangles[triangle][i]];
 }
@@ -53,7 +77,7 @@ void check_sound(const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("mesher: a pole becomes a closed tube whose volume is the truncated cone's") {
-  const Mesh mesh = build_mesh(pole(10), {.sides_min = 64, .sides_max = 64});
+  const Mesh mesh = build_mesh(pole(10), {.sides_min = 64, .sides_max = 64, .root_flare = 0.0});
   check_sound(mesh);
   // pi/3 h (R^2 + R r + r^2), and the tip's cone, as long as it is wide.
   const double expected = std::numbers::pi / 3 * (10 * (0.01 + 0.005 + 0.0025) + 0.1 * 0.0025);
@@ -84,26 +108,55 @@ TEST_CASE("mesher: the meshes of all trees are sound and face outwards") {
   }
 }
 
-TEST_CASE("mesher: triangles face the way their corners' normals point") {
-  const Mesh mesh = build_mesh(binary_tree(4), {});
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Vec3f sum(0.0f);
-    for (const std::uint32_t vertex : mesh.triangles[t]) sum += mesh.normals[vertex];
-    CHECK(glm::dot(sum, area_vector(mesh, t)) > 0);
+TEST_CASE("mesher: triangles that are seen face the way their corners' normals point") {
+  for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
+    const Skeleton tree = slim_tree(6);
+    const Mesh mesh = build_mesh(tree, {.centre_line = line});
+    std::size_t flipped = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      Vec3f sum(0.0f);
+      for (const std::uint32_t vertex : mesh.triangles[t]) sum += mesh.normals[vertex];
+      const Vec3f middle = (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3.0f;
+      flipped += glm::dot(sum, area_vector(mesh, t)) <= 0 && !is_in_wood(tree, Vec3(middle));
+    }
+    // In narrow forks the crotch of a collar may fold.
+    CHECK(flipped <= mesh.triangles.size() / 1000);
   }
 }
 
-TEST_CASE("mesher: a lateral's tube begins on its parent's centre line, so no fork has a gap") {
-  const Skeleton tree = binary_tree(4);
-  const Mesh mesh = build_mesh(tree, {});
-  for (std::size_t node = 2; node < tree.node_count(); ++node) {
-    if (tree.axis[node] == tree.axis[tree.parent[node]]) continue;
-    const Vec3f base(tree.position[tree.parent[node]]);
-    float nearest = 1e9f;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-      if (mesh.internodes[v] == node) nearest = std::min(nearest, glm::length(mesh.positions[v] - base));
+TEST_CASE("mesher: a lateral's collar begins within its parent's facets and flows over into the lateral") {
+  for (const double angle_deg : {30.0, 60.0, 90.0, 120.0}) {
+    for (const double diameter : {0.01, 0.05, 0.1, 0.15}) {
+      Skeleton s = pole(4);
+      for (double& d : s.diameter) d = 0.2;
+      const double angle = radians(angle_deg);
+      for (int i = 1; i <= 3; ++i) {
+        s.position.push_back(Vec3(0, 2, 0) + 0.8 * i * Vec3(std::sin(angle), std::cos(angle), 0));
+        s.parent.push_back(i == 1 ? 2 : static_cast<std::uint32_t>(s.node_count() - 2));
+        s.diameter.push_back(diameter);
+        s.kind.push_back(Kind::stem);
+      }
+      assign_axes(s);
+      const Mesh mesh = build_mesh(s, {.root_flare = 0.0});
+      const Mesh trunk = build_mesh(pole_of_width(4, 0.2), {.root_flare = 0.0});
+      INFO(angle_deg << " degrees, " << diameter << " m");
+      // The trunk comes first; a lateral's first ring belongs to its parent's node.
+      std::size_t feet = 0;
+      for (std::size_t v = trunk.vertex_count(); v < mesh.vertex_count() && mesh.internodes[v] == 2; ++v) {
+        ++feet;
+        const Vec3f& p = mesh.positions[v];
+        CHECK(std::hypot(p.x, p.z) < 0.1 * std::cos(std::numbers::pi / 12));
+        CHECK(std::hypot(p.x, p.z) > 0.09);
+        CHECK(glm::dot(mesh.normals[v], Vec3f(p.x, 0, p.z) / std::hypot(p.x, p.z)) > 0.999f);
+      }
+      CHECK(feet >= 4);
+      for (std::size_t v = trunk.vertex_count() + feet; v < mesh.vertex_count(); ++v) {
+        const Vec3 along(std::sin(angle), std::cos(angle), 0);
+        const Vec3 from = Vec3(mesh.positions[v]) - Vec3(0, 2, 0);
+        const double off = glm::length(from - along * glm::dot(from, along));
+        CHECK(off < 2.0 * diameter + 1e-5);
+      }
     }
-    CHECK(nearest <= 0.5f * static_cast<float>(tree.diameter[node]) + 1e-5f);
   }
 }
 
@@ -169,6 +222,6 @@ TEST_CASE("mesher: a lateral at the root is as thin there as further on") {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.internodes[v] != 3) continue;
     const Vec3f& p = mesh.positions[v];
-    CHECK(std::hypot(p.y, p.z) < 0.0101f);
+    if (p.x > 0.13f) CHECK(std::hypot(p.y, p.z) < 0.0101f);  // beyond the collar
   }
 }

@@ -1,0 +1,132 @@
+#include "common/mesh/bark.h"
+
+#include <algorithm>
+
+#include "common/base/errors.h"
+#include "common/base/files.h"
+#include "common/base/parallel.h"
+#include "common/mesh/bark_texture.h"
+#include "common/mesh/palette.h"
+
+namespace ramify {
+namespace {
+
+using ColorBytes = std::array<std::uint8_t, 4>;
+
+Image read_image(const std::filesystem::path& path) {
+  return decoded_image(read_file(path), path.string());
+}
+
+/// The bark's own colour where its stem has this diameter.
+Color color_of_kind(BarkKind kind, double diameter) {
+  switch (kind) {
+    case BarkKind::smooth:
+      return smooth_bark_color(diameter);
+    case BarkKind::plated:
+      return plated_bark_color(diameter);
+    default:
+      return bark_color(diameter);
+  }
+}
+
+/// `color` so that a texture of `mean_shade` over it comes out like it.
+ColorBytes tint(const Color& color, double mean_shade) {
+  const auto byte = [mean_shade](float encoded) {
+    const float light = std::min(linear_of(encoded) / static_cast<float>(mean_shade), 1.0f);
+    return static_cast<std::uint8_t>(std::lround(255.0f * encoded_of(light)));
+  };
+  return {byte(color.r), byte(color.g), byte(color.b), 255};
+}
+
+/// How often the texture stands around the wood at each node: as often as fits the girth where its axis
+/// begins.
+std::vector<float> repeats_around(const Skeleton& skeleton, double tile_width) {
+  std::vector<float> repeats(skeleton.node_count(), 1.0f);
+  for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
+    const std::uint32_t parent = skeleton.parent[node];
+    if (!skeleton.is_root(parent) && skeleton.axis[parent] == skeleton.axis[node]) {
+      repeats[node] = repeats[parent];
+      continue;
+    }
+    const double girth = std::numbers::pi * skeleton.diameter[node];
+    repeats[node] = static_cast<float>(std::max(1.0, std::round(girth / tile_width)));
+  }
+  return repeats;
+}
+
+void set_texture(Material& material, const BarkOptions& options, double& mean_shade) {
+  material.color = Vec3f(1.0f);
+  if (!options.image.empty()) {
+    material.image = read_image(options.image);
+    if (!options.normal.empty()) material.normal_map = read_image(options.normal);
+  } else if (options.kind != BarkKind::plain) {
+    BarkTexture texture = make_bark_texture(options.kind, options.resolution);
+    material.image = std::move(texture.shade);
+    material.normal_map = std::move(texture.normal_map);
+    mean_shade = texture.mean_shade;
+  }
+}
+
+void check_image(const std::filesystem::path& path, const std::string& key) {
+  if (path.empty()) return;
+  try {
+    read_image(path);
+  } catch (const InputError& error) {
+    throw ConfigError({}, key, error.what());
+  }
+}
+
+}  // namespace
+
+const Table& BarkOptions::fields() {
+  static const Table table = make_table<BarkOptions>({
+      {"kind",
+       &BarkOptions::kind,
+       {.help = "plain: a colour alone; ridged as oak; smooth with lenticels as beech; plated as pine",
+        .choices = {"plain", "ridged", "smooth", "plated"}}},
+      {"image", &BarkOptions::image, {.help = "PNG or JPEG instead of the kind's texture; it should tile"}},
+      {"normal", &BarkOptions::normal, {.help = "PNG or JPEG, the normal map that goes with image"}},
+      {"tile_width",
+       &BarkOptions::tile_width,
+       {.min = 0.001, .max = 100, .unit = "m", .help = "how wide the texture is on thick wood"}},
+      {"resolution",
+       &BarkOptions::resolution,
+       {.min = 16, .max = 4096, .unit = "pixels", .help = "side of the kind's texture"}},
+  });
+  return table;
+}
+
+void check_bark(const BarkOptions& options) {
+  check_image(options.image, "image");
+  check_image(options.normal, "normal");
+  if (!options.normal.empty() && options.image.empty()) {
+    throw ConfigError({}, "normal", "a normal map without bark.image (name the image that it goes with)");
+  }
+}
+
+void dress_in_bark(Mesh& mesh, const Skeleton& skeleton, const BarkOptions& options) {
+  const auto bark = std::find_if(mesh.materials.begin(), mesh.materials.end(),
+                                 [](const Material& material) { return material.name == "bark"; });
+  if (bark == mesh.materials.end()) return;
+  double mean_shade = 1.0;
+  set_texture(*bark, options, mean_shade);
+
+  std::vector<ColorBytes> colors(skeleton.node_count(), {255, 255, 255, 255});
+  if (options.image.empty()) {
+    for (std::size_t node = 0; node < colors.size(); ++node) {
+      colors[node] = tint(color_of_kind(options.kind, skeleton.diameter[node]), mean_shade);
+    }
+  }
+  const std::vector<float> repeats = repeats_around(skeleton, options.tile_width);
+  const bool has_colors = options.image.empty();
+  if (has_colors) mesh.colors.resize(mesh.vertex_count());
+  parallel_for(mesh.vertex_count(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t vertex = begin; vertex < end; ++vertex) {
+      const std::uint32_t node = mesh.internodes[vertex];
+      if (has_colors) mesh.colors[vertex] = colors[node];
+      mesh.uvs[vertex] *= repeats[node];
+    }
+  });
+}
+
+}  // namespace ramify

@@ -1,0 +1,55 @@
+// The line that a tube is swept along, and where its rings stand: many in bends, few where it runs straight.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/geometry.h"
+#include "common/mesh/mesher.h"
+
+namespace ramify {
+
+/// A node of a tube, with the stretch that leads to it.
+struct Knot {
+  Vec3 position;
+  Vec3 along{0.0};      // unit, from the knot before; of the first knot, to the one after
+  double length = 0.0;  // from the knot before, metres
+  double room = 0.0;    // the part of it that bends may take
+  double radius = 0.0;
+  std::uint32_t node = 0;
+  std::uint32_t rings = 1;  // that the line needs at the knot, or on the stretch that leads to it
+};
+
+/// Where a ring stands.
+struct LinePoint {
+  Vec3 position;
+  Vec3 along;  // unit tangent
+  double radius = 0.0;
+  std::uint32_t node = 0;
+};
+
+/// Sets `along`, `length` and `room` from the positions. Knots in one place keep the direction before them.
+void measure(std::span<Knot> knots);
+
+/// How many rings a knot needs between two stretches for the line to turn by no more than `turn_max` from one
+/// to the next, radians.
+std::uint32_t rings_in_bend(const Knot& knot, const Knot& next, double turn_max);
+
+/// Sets `rings` of all knots. The bend at a knot of a polyline is an arc that cuts the corner by no more than
+/// `slack`, metres, at a single ring.
+void count_rings(std::span<Knot> knots, CentreLine line, double turn_max, double slack);
+
+/// How far from a knot the line begins to turn, metres, where a polyline is rounded.
+double bend_reach(double radius, double room_before, double room_after);
+
+/// The derivative of a centripetal Catmull-Rom curve at the end of the stretch to knots[i], by the share of
+/// that stretch.
+/// E. Catmull, R. Rom, A class of local interpolating splines, 1974; C. Yuksel, S. Schaefer, J. Keyser,
+/// Parameterization and applications of Catmull-Rom curves, Computer-Aided Design 43(7), 2011.
+Vec3 spline_tangent(std::span<const Knot> knots, std::size_t i);
+
+/// Appends the points of the line to `points`, knots[0].rings = 1 point for the first knot.
+void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points);
+
+}  // namespace ramify

@@ -1,0 +1,62 @@
+// The collar of a lateral: where it leaves its parent, its surface flows over into the parent's, so that
+// neither an edge nor a gap shows.
+#pragma once
+
+#include <cstdint>
+
+#include "common/base/geometry.h"
+
+namespace ramify {
+
+/// The parent's wood around the place where a lateral leaves it.
+struct Fork {
+  Vec3 center;              // where the lateral's own line begins
+  Vec3 along = kUp;         // unit, of the parent there
+  Vec3 run{0.0, 1.0, 0.0};  // half the sum of the parent's directions below and above
+  Vec3 bend{0.0};           // their difference
+  double reach = 0.0;       // the bend's, metres each way
+  double radius = 0.0;
+  double widening_below = 0.0;  // radius a metre along the parent
+  double widening_above = 0.0;
+  double inset = 1.0;      // share of the radius that lies within the parent's facets all round
+  bool is_ground = false;  // the parent begins here: nothing lies below
+  std::uint32_t node = 0;
+};
+
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 normal;
+};
+
+/// The point of the parent's wood that lies nearest, seen from its axis. A point on the axis goes to the side
+/// of `fallback`.
+SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback);
+
+/// A lateral as its collar needs it.
+struct Lateral {
+  Vec3 along{0.0};      // unit, of its first stretch
+  double length = 0.0;  // of that stretch
+  double radius = 0.0;
+  Vec3 bow{0.0};  // what the derivative at the stretch's end is beyond the straight line's
+};
+
+/// The part of the lateral's first stretch that its collar may take.
+constexpr double kCollarShare = 0.7;
+
+/// One line of a collar, from the parent's surface to the lateral's: a quadratic Bezier curve that touches
+/// both surfaces.
+struct CollarLine {
+  Vec3 foot;
+  Vec3 crotch;
+  Vec3 top;
+  Vec3 foot_normal;
+  Vec3 top_normal;
+
+  /// At t from 0, the parent's surface, to 1.
+  SurfacePoint at(double t) const;
+};
+
+/// The line on the lateral's side `outwards`, a unit vector perpendicular to its direction.
+CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& outwards);
+
+}  // namespace ramify

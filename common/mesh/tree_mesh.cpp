@@ -1,0 +1,32 @@
+#include "common/mesh/tree_mesh.h"
+
+#include "common/mesh/tangents.h"
+
+namespace ramify {
+namespace {
+
+/// Of leaves like the model at these places, which differ in size.
+double total_area(const LeafModel& model, const std::vector<Leaf>& leaves) {
+  double area = 0.0;
+  for (const Leaf& leaf : leaves) area += model.area * glm::dot(leaf.frame[1], leaf.frame[1]);
+  return area;
+}
+
+}  // namespace
+
+TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed) {
+  TreeMesh tree;
+  tree.mesh = build_mesh(skeleton, looks.mesher);
+  dress_in_bark(tree.mesh, skeleton, looks.bark);
+  compute_tangents(tree.mesh);
+  if (!looks.leaves.is_on()) return tree;
+
+  const LeafModel model = leaf_model(looks.leaves);
+  const std::vector<Leaf> leaves = place_leaves(skeleton, looks.leaves, seed);
+  append_leaves(tree.mesh, model, leaves);
+  tree.leaf_count = leaves.size();
+  tree.leaf_area = total_area(model, leaves);
+  return tree;
+}
+
+}  // namespace ramify

@@ -1,0 +1,171 @@
+// Bark: textures, their repetition, colours and tangents.
+
+#include <algorithm>
+#include <fstream>
+
+#include "common/base/errors.h"
+#include "common/base/parallel.h"
+#include "common/mesh/bark_texture.h"
+#include "common/mesh/tangents.h"
+#include "common/mesh/tree_mesh.h"
+#include "tests/catch.h"
+#include "tests/common/trees.h"
+#include "tests/folder.h"
+
+using namespace ramify;
+using namespace ramify::test;
+
+namespace {
+
+constexpr BarkKind kKinds[] = {BarkKind::ridged, BarkKind::smooth, BarkKind::plated};
+
+/// Mean difference, over a channel, of the pixels of two columns (or rows).
+double difference(const Image& image, bool is_column, int first, int second) {
+  const int length = is_column ? image.height : image.width;
+  double sum = 0.0;
+  for (int i = 0; i < length; ++i) {
+    const std::uint8_t* a = is_column ? image.pixel(first, i) : image.pixel(i, first);
+    const std::uint8_t* b = is_column ? image.pixel(second, i) : image.pixel(i, second);
+    for (int channel = 0; channel < 3; ++channel) sum += std::abs(a[channel] - b[channel]);
+  }
+  return sum / (3.0 * length);
+}
+
+/// The greatest difference of neighbouring columns (or rows) inside the image.
+double steepest_step(const Image& image, bool is_column) {
+  double steepest = 0.0;
+  const int count = is_column ? image.width : image.height;
+  for (int i = 1; i < count; ++i) steepest = std::max(steepest, difference(image, is_column, i - 1, i));
+  return steepest;
+}
+
+Mesh barked(const Skeleton& skeleton, const BarkOptions& options = {}) {
+  Looks looks;
+  looks.bark = options;
+  return make_tree_mesh(skeleton, looks, 1).mesh;
+}
+
+}  // namespace
+
+TEST_CASE("bark: textures go on at the opposite edge as they do inside") {
+  for (const BarkKind kind : kKinds) {
+    const BarkTexture texture = make_bark_texture(kind, 256);
+    for (const Image* image : {&texture.shade, &texture.normal_map}) {
+      for (const bool is_column : {true, false}) {
+        CHECK(difference(*image, is_column, 255, 0) <= steepest_step(*image, is_column));
+      }
+    }
+  }
+}
+
+TEST_CASE("bark: textures differ by kind, are rough in their own measure and no blank") {
+  std::vector<double> roughness;
+  for (const BarkKind kind : kKinds) {
+    const BarkTexture texture = make_bark_texture(kind, 128);
+    CHECK(texture.mean_shade > 0.3);
+    CHECK(texture.mean_shade < 0.9);
+    double tilt = 0.0;
+    for (std::size_t i = 0; i < texture.normal_map.rgba.size(); i += 4) {
+      Vec3f normal;
+      for (int axis = 0; axis < 3; ++axis) {
+        normal[axis] =
+            static_cast<float>(texture.normal_map.rgba[i + static_cast<std::size_t>(axis)]) / 127.5f - 1.0f;
+      }
+      CHECK(glm::length(normal) == Approx(1.0f).margin(0.02));
+      tilt += 1.0 - normal.z;
+    }
+    roughness.push_back(tilt);
+  }
+  CHECK(roughness[1] > 0.0);
+  CHECK(roughness[1] < 0.3 * roughness[0]);  // smooth bark
+  CHECK(roughness[1] < 0.3 * roughness[2]);
+}
+
+TEST_CASE("bark: a texture is the same each time, for any number of threads") {
+  const BarkTexture texture = make_bark_texture(BarkKind::ridged, 128);
+  const ThreadLimit limit(1);
+  CHECK(make_bark_texture(BarkKind::ridged, 128).shade.rgba == texture.shade.rgba);
+  CHECK(make_bark_texture(BarkKind::ridged, 128).normal_map.rgba == texture.normal_map.rgba);
+}
+
+TEST_CASE("bark: the texture stands around a trunk as often as fits, around a twig once") {
+  BarkOptions options;
+  options.tile_width = 0.1;
+  const Mesh mesh = barked(pole(2), options);  // 0.2 m wide: 0.63 m around
+  float highest = 0.0f;
+  for (const Vec2f& uv : mesh.uvs) highest = std::max(highest, uv.x);
+  const double girth = std::numbers::pi * pole(2).diameter[1];
+  CHECK(highest == static_cast<float>(std::round(girth / 0.1)));
+  options.tile_width = 10.0;
+  highest = 0.0f;
+  for (const Vec2f& uv : barked(pole(2), options).uvs) highest = std::max(highest, uv.x);
+  CHECK(highest == 1.0f);
+}
+
+TEST_CASE("bark: twigs have another colour than the trunk") {
+  const Mesh mesh = barked(pole(10));
+  REQUIRE(mesh.colors.size() == mesh.vertex_count());
+  const auto color_of = [&](std::uint32_t node) {
+    const auto vertex = std::find(mesh.internodes.begin(), mesh.internodes.end(), node);
+    return mesh.colors[static_cast<std::size_t>(vertex - mesh.internodes.begin())];
+  };
+  CHECK(color_of(1) != color_of(10));
+}
+
+TEST_CASE("bark: tangents are unit vectors across the normal, along +u, of the side the texture has") {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Mesh mesh = barked(random_tree(seed, 60));
+    REQUIRE(mesh.tangents.size() == mesh.vertex_count());
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+      CHECK(glm::length(Vec3f(mesh.tangents[i])) == Approx(1.0f).margin(1e-4));
+      CHECK(glm::dot(Vec3f(mesh.tangents[i]), mesh.normals[i]) == Approx(0.0f).margin(1e-4));
+      // The mesher lays u around and v along the branch so that nothing is mirrored.
+      CHECK(mesh.tangents[i].w == 1.0f);
+    }
+  }
+}
+
+TEST_CASE("bark: on a flat square the tangent is u's direction and, where it is mirrored, w is -1") {
+  for (const float side : {1.0f, -1.0f}) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.normals.assign(4, {0, 0, 1});
+    mesh.uvs = {{0, 0}, {side, 0}, {side, 1}, {0, 1}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.ranges = {{0, 0, 2}};
+    mesh.materials.resize(1);
+    compute_tangents(mesh);
+    CHECK(mesh.tangents.empty());
+    mesh.materials[0].normal_map = {1, 1, {128, 128, 255, 255}};
+    compute_tangents(mesh);
+    REQUIRE(mesh.tangents.size() == 4);
+    for (const glm::vec4& tangent : mesh.tangents) CHECK(tangent == glm::vec4(side, 0, 0, side));
+  }
+}
+
+TEST_CASE("bark: tangents are the same for any number of threads") {
+  const Mesh mesh = barked(random_tree(9, 3000));
+  const ThreadLimit limit(1);
+  CHECK(barked(random_tree(9, 3000)).tangents == mesh.tangents);
+}
+
+TEST_CASE("bark: plain wood has neither image nor tangents") {
+  BarkOptions options;
+  options.kind = BarkKind::plain;
+  const Mesh mesh = barked(pole(3), options);
+  CHECK(mesh.materials[0].image.is_empty());
+  CHECK(mesh.tangents.empty());
+  CHECK(!mesh.colors.empty());
+}
+
+TEST_CASE("bark: an image of one's own is used as it is, uncoloured") {
+  const Folder folder;
+  const Image image{2, 1, {10, 20, 30, 255, 200, 100, 50, 255}};
+  std::ofstream(folder.file("bark.png"), std::ios::binary) << png_bytes(image);
+  BarkOptions options;
+  options.image = folder.file("bark.png");
+  const Mesh mesh = barked(pole(3), options);
+  CHECK(mesh.materials[0].image.rgba == image.rgba);
+  CHECK(mesh.materials[0].normal_map.is_empty());
+  CHECK(mesh.colors.empty());
+}

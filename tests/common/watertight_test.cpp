@@ -1,0 +1,242 @@
+#include "common/mesh/watertight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/errors.h"
+#include "common/base/parallel.h"
+#include "common/config/job.h"
+#include "common/skeleton/passes.h"
+#include "growth/engine.h"
+#include "pathplan/engine.h"
+#include "tests/catch.h"
+#include "tests/common/manifolds.h"
+#include "tests/common/trees.h"
+
+using namespace ramify;
+using namespace ramify::test;
+
+namespace {
+
+Mesh watertight(const Skeleton& skeleton, MesherOptions options) {
+  options.method = MeshMethod::watertight;
+  return build_mesh(skeleton, options);
+}
+
+/// Of truncated cones.
+double wood_volume(const Skeleton& s) {
+  double sum = 0.0;
+  for (std::size_t node = 0; node < s.node_count(); ++node) {
+    if (s.is_root(node)) continue;
+    const double a = base_radius(s, node);
+    const double b = 0.5 * s.diameter[node];
+    sum += std::numbers::pi / 3 * s.length(node) * (a * a + a * b + b * b);
+  }
+  return sum;
+}
+
+void add_internode(Skeleton& s, std::uint32_t parent, const Vec3& end, double diameter) {
+  s.position.push_back(end);
+  s.parent.push_back(parent);
+  s.diameter.push_back(diameter);
+  s.kind.push_back(Kind::stem);
+}
+
+/// A trunk of two internodes, 0.2 m thick, with a lateral half as thick.
+Skeleton y_fork() {
+  Skeleton s;
+  add_internode(s, kNoParent, {0, 0, 0}, 0.2);
+  add_internode(s, 0, {0, 1, 0}, 0.2);
+  add_internode(s, 1, {0, 2, 0}, 0.2);
+  add_internode(s, 1, {1, 2, 0}, 0.1);
+  assign_axes(s);
+  return s;
+}
+
+std::string error_of(const Skeleton& skeleton, const MesherOptions& options) {
+  try {
+    watertight(skeleton, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void check_closed(const Mesh& mesh, std::size_t pieces) {
+  const std::vector<std::string> found = manifold_violations(mesh);
+  INFO(found.size() << " violations, the first: " << (found.empty() ? "" : found.front()));
+  CHECK(found.empty());
+  CHECK(component_count(mesh) == pieces);
+  CHECK(euler_characteristic(mesh) % 2 == 0);
+  CHECK(self_intersections(mesh) == 0);
+  CHECK(enclosed_volume(mesh) > 0);
+}
+
+}  // namespace
+
+TEST_CASE("watertight: one internode is its truncated cone and half a ball at the tip") {
+  const Skeleton tree = pole(1);
+  const double expected = wood_volume(tree) + 2.0 / 3.0 * std::numbers::pi * std::pow(0.05, 3);
+  for (const double adaptivity : {0.0, 0.1}) {
+    const Mesh mesh = watertight(tree, {.voxel_size = 0.01, .adaptivity = adaptivity});
+    check_closed(mesh, 1);
+    CHECK(euler_characteristic(mesh) == 2);
+    CHECK(std::abs(enclosed_volume(mesh) / expected - 1.0) < 0.015);
+    CHECK(std::all_of(mesh.internodes.begin(), mesh.internodes.end(), [](auto node) { return node == 1; }));
+    float lowest = 1.0f;
+    float highest = 0.0f;
+    for (const Vec3f& p : mesh.positions) {
+      lowest = std::min(lowest, p.y);
+      highest = std::max(highest, p.y);
+    }
+    CHECK(std::abs(lowest) < 0.001f);  // flat, to stand on
+    CHECK(std::abs(highest - 1.05f) < 0.001f);
+  }
+}
+
+TEST_CASE("watertight: where one cone ends and the next begins nothing bulges") {
+  const Mesh mesh = watertight(pole(10), {.voxel_size = 0.01});
+  for (const Vec3f& p : mesh.positions) {
+    if (p.y > 10.0f) continue;
+    CHECK(std::hypot(p.x, p.z) < 0.1f - 0.005f * p.y + 0.001f);
+  }
+}
+
+TEST_CASE("watertight: a fork is one piece, and its blend adds little") {
+  const Skeleton tree = y_fork();
+  const Mesh sharp = watertight(tree, {.voxel_size = 0.01, .blend = 0.0});
+  const Mesh blended = watertight(tree, {.voxel_size = 0.01, .blend = 1.0});
+  for (const Mesh* mesh : {&sharp, &blended}) {
+    check_closed(*mesh, 1);
+    CHECK(euler_characteristic(*mesh) == 2);
+  }
+  const double added = enclosed_volume(blended) - enclosed_volume(sharp);
+  CHECK(added > 0.00005);
+  CHECK(added < 0.01 * enclosed_volume(sharp));
+  // Away from the fork, also behind it, both are the same.
+  for (const Vec3f& p : blended.positions) {
+    if (p.x < 0.0f && p.y < 1.9f) CHECK(std::hypot(p.x, p.z) < 0.101f);
+  }
+}
+
+TEST_CASE("watertight: internodes without length and jumps of width change nothing of that") {
+  Skeleton tree = y_fork();
+  add_internode(tree, 3, {1, 2, 0}, 0.1);       // no length
+  add_internode(tree, 4, {1.5, 2.2, 0}, 0.3);   // thick after thin
+  add_internode(tree, 5, {2.5, 2.2, 0}, 0.05);  // thin after thick
+  assign_axes(tree);
+  const Mesh mesh = watertight(tree, {.voxel_size = 0.015});
+  check_closed(mesh, 1);
+  CHECK(mesh.warnings.empty());
+}
+
+TEST_CASE("watertight: two trees apart are two pieces, two that touch are one") {
+  Skeleton other = y_fork();
+  for (Vec3& p : other.position) p.z += 1.0;
+  check_closed(watertight(joined({y_fork(), other}), {.voxel_size = 0.02}), 2);
+  for (Vec3& p : other.position) p.z -= 0.9;
+  check_closed(watertight(joined({y_fork(), other}), {.voxel_size = 0.02}), 1);
+}
+
+TEST_CASE("watertight: trees whose branches cross at random are closed all the same") {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    INFO("seed " << seed);
+    const Mesh mesh = watertight(random_tree(seed, 100), {.voxel_size = 0.03, .adaptivity = 0.1});
+    check_closed(mesh, 1);
+  }
+}
+
+TEST_CASE("watertight: presets of both engines at a coarse size") {
+  EngineRegistry registry;
+  growth::register_engine(registry);
+  pathplan::register_engine(registry);
+  const std::vector<std::pair<std::string, double>> presets = {{"s4-fig6", 0.006},
+                                                               {"s4-improved", 0.012},
+                                                               {"columnar", 0.012},
+                                                               {"xm12-a", 0.03},
+                                                               {"x18-d10-a60", 0.03}};
+  for (const auto& [name, voxel_size] : presets) {
+    INFO(name);
+    const Skeleton tree = living(load_job(registry, name).run({}).skeleton);
+    check_closed(watertight(tree, {.voxel_size = voxel_size}), tree.root_count());
+  }
+}
+
+TEST_CASE("watertight: the volume is the wood's where laterals are few and thin") {
+  // Cones of a lateral overlap its parent's: what is counted twice is a thousandth here.
+  Skeleton tree = pole(10);
+  for (std::uint32_t node = 2; node < 10; node += 2) {
+    add_internode(tree, node, tree.position[node] + Vec3(node % 4 == 0 ? 1.0 : -1.0, 0.7, 0), 0.04);
+  }
+  assign_axes(tree);
+  const Mesh mesh = watertight(tree, {.voxel_size = 0.01});
+  check_closed(mesh, 1);
+  CHECK(std::abs(enclosed_volume(mesh) / wood_volume(tree) - 1.0) < 0.02);
+}
+
+TEST_CASE("watertight: twigs thinner than two voxels are told and left out, or closed tubes if asked") {
+  Skeleton tree = pole(2);
+  add_internode(tree, 1, {1, 2, 0}, 0.01);
+  add_internode(tree, 3, {2, 2, 0}, 0.1);  // thick, but on the thin one
+  assign_axes(tree);
+  const Mesh without = watertight(tree, {.voxel_size = 0.02});
+  check_closed(without, 1);
+  REQUIRE(without.warnings.size() == 1);
+  CHECK(without.warnings[0].rfind("watertight: 2 of 4 internodes, 0.00302 m3 of wood (", 0) == 0);
+  CHECK(without.warnings[0].find("thinner than 2 voxels of 0.02 m or grow on such: left out") !=
+        std::string::npos);
+
+  const Mesh with = watertight(tree, {.voxel_size = 0.02, .thin_twigs = ThinTwigs::tubes});
+  CHECK(manifold_violations(with).empty());
+  CHECK(component_count(with) == 2);
+  CHECK(euler_characteristic(with) == 4);
+  CHECK(enclosed_volume(with) > enclosed_volume(without) + 0.001);
+  CHECK(with.warnings.at(0).find("kept as 1 closed tubes") != std::string::npos);
+  CHECK(with.ranges.at(0).triangle_count == with.triangles.size());
+}
+
+TEST_CASE("watertight: the size chosen resolves the thinnest twig, or is as fine as voxels allow") {
+  const WatertightPlan fine = plan_watertight(y_fork(), {});
+  CHECK(fine.voxel_size == Approx(0.1 / 3));
+  Skeleton tree = y_fork();
+  add_internode(tree, 1, {0, 2, 1}, 0.0005);
+  assign_axes(tree);
+  const WatertightPlan limited = plan_watertight(tree, {});
+  CHECK(limited.voxel_size > 0.0005 / 3);
+  CHECK(limited.predicted_voxels <= kActiveVoxelsMax);
+  CHECK(limited.predicted_voxels > 0.9 * kActiveVoxelsMax);
+}
+
+TEST_CASE("watertight: a size that cannot be is one line that says which can") {
+  const std::string fine = error_of(y_fork(), {.voxel_size = 1e-4});
+  CHECK(fine.rfind("mesher.voxel_size: 0.0001 m takes about ", 0) == 0);
+  CHECK(fine.find("million voxels, more than 50 (at least 0.000") != std::string::npos);
+  CHECK(error_of(y_fork(), {.voxel_size = 0.5}) ==
+        "mesher.voxel_size: 0.5 m is too coarse for a trunk 0.2 m thick (at most 0.1)");
+  Skeleton nothing = y_fork();
+  std::fill(nothing.diameter.begin(), nothing.diameter.end(), 0.0);
+  CHECK(error_of(nothing, {}) == "watertight: no internode at a root has a width");
+}
+
+TEST_CASE("watertight: the number of threads does not change the mesh") {
+  const Skeleton tree = random_tree(7, 60);
+  const MesherOptions options = {.voxel_size = 0.03, .thin_twigs = ThinTwigs::tubes};
+  Mesh one;
+  {
+    const ThreadLimit limit(1);
+    one = watertight(tree, options);
+  }
+  const ThreadLimit limit(3);
+  const Mesh three = watertight(tree, options);
+  CHECK(one.positions == three.positions);
+  CHECK(one.normals == three.normals);
+  CHECK(one.uvs == three.uvs);
+  CHECK(one.internodes == three.internodes);
+  CHECK(one.triangles == three.triangles);
+}
+
+TEST_CASE("watertight: adaptivity saves triangles where the wood is smooth") {
+  const std::size_t even = watertight(y_fork(), {.voxel_size = 0.01, .adaptivity = 0.0}).triangles.size();
+  const std::size_t adaptive = watertight(y_fork(), {.voxel_size = 0.01, .adaptivity = 0.1}).triangles.size();
+  CHECK(2 * adaptive < even);
+}
