@@ -19,7 +19,7 @@ namespace {
 
 struct ViewFlags {
   std::vector<std::string> inputs;
-  std::string size = "1280x800";
+  std::string size;  // empty: as it was left
   bool is_driven = false;
   ConfigFlags configuring;
 };
@@ -67,14 +67,16 @@ void write(const Export& wanted) {
 }
 
 void run(ViewFlags flags, const Session& session) {
-  if (flags.inputs.empty()) flags.inputs = {"s4-fig6", "xm12-fig5"};
-  ViewOptions options{.inputs = flags.inputs, .is_driven = flags.is_driven};
+  const bool is_bare = flags.inputs.empty();
+  if (is_bare) flags.inputs = {"s4-fig6", "xm12-fig5"};
+  ViewOptions options{.inputs = flags.inputs, .shows_gallery = is_bare, .is_driven = flags.is_driven};
   int used = 0;
   const bool is_size =
       std::sscanf(flags.size.c_str(), "%5dx%5d%n", &options.width, &options.height, &used) == 2 &&
       used == static_cast<int>(flags.size.size());
-  if (!is_size || options.width < 1 || options.height < 1) {
-    throw InputError(fmt::format("--size: '{}' is no WxH", flags.size));
+  if (!flags.size.empty() && (!is_size || options.width < 1 || options.height < 1 || options.width > 32'768 ||
+                              options.height > 32'768)) {
+    throw InputError(fmt::format("--size: '{}' is no WxH (1x1 to 32768x32768)", flags.size));
   }
   const ViewServices services{.registry = session.registry,
                               .open = [&](const std::string& input) { return open(input, flags, session); },
@@ -96,9 +98,8 @@ void add_view(CLI::App& program, const Session& session) {
                    "A preset or TOML file, a skeleton table or a mesh; two stand side by side")
       ->type_name("INPUT")
       ->expected(0, 2);
-  command->add_option("--size", flags->size, "Width and height of the window")
-      ->type_name("WxH")
-      ->capture_default_str();
+  command->add_option("--size", flags->size, "Width and height of the window; without, as it was left")
+      ->type_name("WxH");
   command->add_flag("--driven", flags->is_driven,
                     "For tests: print where the widgets are and what is done, check every OpenGL call");
   flags->configuring.add_to(*command);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "viewer/actions.h"
+#include "viewer/show_view.h"
 
 namespace ramify {
 namespace {
@@ -138,6 +139,11 @@ std::vector<Command> view_commands() {
        .key = {"m"},
        .run = [](Workbench& bench) { bench.show.with_scale = !bench.show.with_scale; },
        .is_on = [](const Workbench& bench) { return bench.show.with_scale; }},
+      {.menu = "View",
+       .label = "Fields as a slice",
+       .key = {"v"},
+       .run = [](Workbench& bench) { bench.show.are_slices = !bench.show.are_slices; },
+       .is_on = [](const Workbench& bench) { return bench.show.are_slices; }},
       switch_command("Link cameras", "c", &Workbench::are_cameras_linked, has_two),
       {.menu = "View",
        .label = "Same scale",
@@ -149,6 +155,7 @@ std::vector<Command> view_commands() {
            },
        .is_possible = has_two,
        .is_on = [](const Workbench& bench) { return bench.is_same_scale; }},
+      switch_command("Gallery of presets", "g", &Workbench::shows_gallery),
       {.menu = "View",
        .label = "Overlay both trees",
        .key = {"o"},
@@ -174,6 +181,14 @@ std::vector<Command> time_commands() {
        .key = {"left"},
        .run = [](Workbench& bench) { step_by(bench, -1); }},
   };
+}
+
+/// F2 is the first overlay.
+void switch_overlay_by_key(Workbench& bench, const KeyPress& pressed) {
+  const std::vector<std::string> names = overlays_of(bench);
+  for (std::size_t index = 0; index < names.size(); ++index) {
+    if (pressed.key == "F" + std::to_string(index + 2)) switch_overlay(bench, names[index]);
+  }
 }
 
 }  // namespace
@@ -205,7 +220,11 @@ void obey_keys(Workbench& bench) {
       return command.key.key == pressed.key && command.key.with_control == pressed.with_control &&
              command.key.with_shift == pressed.with_shift;
     });
-    if (found == commands().end() || bench.prompt) continue;
+    if (bench.prompt) continue;
+    if (found == commands().end()) {
+      switch_overlay_by_key(bench, pressed);
+      continue;
+    }
     if (!found->is_possible || found->is_possible(bench)) found->run(bench);
   }
 }

@@ -145,10 +145,10 @@ void Document::show_step(std::uint32_t step, double now) {
   order(true, now);
 }
 
-bool Document::update(double now) {
+bool Document::update(double now, bool is_at_rest) {
   std::unique_ptr<Product> made = workshop_.take();
   if (!made) {
-    if (due_in(now) == 0.0) order(false, now);
+    if (is_at_rest && due_in(now) == 0.0) order(false, now);
     return false;
   }
   const double edit_time = edit_times_[made->number];

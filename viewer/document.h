@@ -70,8 +70,9 @@ class Document {
   std::uint32_t step() const { return at_.value_or(last_step()); }
   void show_step(std::uint32_t step, double now);
 
-  /// Takes what was made and orders what is due. True if there is something new to be seen.
-  bool update(double now);
+  /// Takes what was made and, when the hand is at rest, orders what is due. True if there is something new to
+  /// be seen.
+  bool update(double now, bool is_at_rest);
 
   /// Seconds until update() has something to order; nothing if only a product can come.
   std::optional<double> due_in(double now) const;

@@ -83,6 +83,7 @@ void show_help(Workbench& bench) {
                      ImGui::GetWindowPos().y + ImGui::GetWindowHeight());
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
       for (const auto& [what, does] : kMouse) help_row(what, does);
+      help_row("F2 and on", "what is shown over the tree (page Show)");
       for (const Command& command : commands()) {
         if (!command.key.key.empty()) help_row(key_text(command.key), command.label);
       }

@@ -59,6 +59,8 @@ void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show)
   if (options.style == RenderStyle::lit) {
     loaded.painter.cast_shadows(scene, sun(), options.with_occlusion ? kShadowMapSize : 64);
   }
+  loaded.overlay.load(*exhibit.product, show.layers, show.are_slices);
+  loaded.base = base_of(scene);
   loaded.serial = exhibit.product->serial;
   loaded.show = show;
   loaded.tint = exhibit.tint;
@@ -112,11 +114,28 @@ Image Pane::image() const {
   return image;
 }
 
+/// Upright, beside the tree, and turned to the viewer.
+void Pane::stand_figure(Loaded& loaded, const Orbit& orbit) const {
+  const CameraAxes axes = camera_axes(orbit.azimuth_deg, 0.0);
+  const Vec3 origin = axes.coordinates(loaded.base);
+  Box extent;
+  for (int corner = 0; corner < 8; ++corner) {
+    extent.include(
+        axes.coordinates({corner & 1 ? box_.high.x : box_.low.x, corner & 2 ? box_.high.y : box_.low.y,
+                          corner & 4 ? box_.high.z : box_.low.z}));
+  }
+  loaded.painter.load_annotations(
+      make_annotations(glm::dvec2(extent.low - origin), glm::dvec2(extent.high - origin)), loaded.base, axes);
+}
+
 void Pane::draw(const Orbit& orbit) {
   const auto start = std::chrono::steady_clock::now();
   const double aspect = static_cast<double>(width_) / height_;
   double reach = 0.0;
   for (const auto& loaded : loaded_) reach = std::max(reach, loaded->painter.ground_reach());
+  for (const auto& loaded : loaded_) {
+    if (loaded->show.with_scale && loaded == loaded_.front()) stand_figure(*loaded, orbit);
+  }
   const Camera camera = camera_of(orbit, aspect, box_, reach);
   Viewport viewport;
   viewport.width = width_;
@@ -128,6 +147,7 @@ void Pane::draw(const Orbit& orbit) {
     } else {
       loaded_[index]->painter.draw_over(camera, viewport);
     }
+    loaded_[index]->overlay.draw(camera, viewport);
   }
   target_->finish(width_, height_);
   glBindTexture(GL_TEXTURE_2D, target_->picture().id());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viewer/orbit.h"
+#include "viewer/overlay.h"
 #include "viewer/painter.h"
 #include "viewer/render_target.h"
 #include "viewer/show_options.h"
@@ -44,6 +45,8 @@ class Pane {
   /// What a painter has loaded.
   struct Loaded {
     Painter painter;
+    Overlay overlay;
+    Vec3 base{0.0};
     std::uint64_t serial = 0;  // of the product
     ShowOptions show;
     std::optional<Color> tint;
@@ -51,6 +54,7 @@ class Pane {
 
   void load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show);
   void draw(const Orbit& orbit);
+  void stand_figure(Loaded& loaded, const Orbit& orbit) const;
 
   std::vector<std::unique_ptr<Loaded>> loaded_;
   std::unique_ptr<RenderTarget> target_;

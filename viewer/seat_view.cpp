@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "viewer/actions.h"
+#include "viewer/show_view.h"
 
 namespace ramify {
 namespace {
@@ -108,7 +109,7 @@ void show_picture(Workbench& bench, std::size_t index, const ImVec2& size) {
   const double pixels = bench.window.pixels_per_unit();
   const unsigned texture =
       seat.pane.picture(exhibits, bench.show, orbit, std::max(1, static_cast<int>(size.x * pixels)),
-                        std::max(1, static_cast<int>(size.y * pixels)), bench.is_moving());
+                        std::max(1, static_cast<int>(size.y * pixels)), bench.is_drawn_fast);
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture)),
                                        low, plus(low, size), {0.0f, 1.0f}, {1.0f, 0.0f});
 }
@@ -173,6 +174,7 @@ void show_seat(Workbench& bench, std::size_t index, const ImVec2& size) {
   const ImVec2 picture(size.x, std::max(1.0f, size.y - steps));
   show_picture(bench, index, picture);
   show_state(bench, index, low, picture);
+  show_legend(bench, index, low.x + picture.x, low.y + picture.y);
   if (bench.seats.size() > 1 && index == bench.active) {
     ImGui::GetWindowDrawList()->AddRect(low, plus(low, picture), ImGui::GetColorU32(ImGuiCol_SliderGrab),
                                         0.0f, 0, 1.5f);
@@ -185,6 +187,7 @@ void show_seat(Workbench& bench, std::size_t index, const ImVec2& size) {
 }  // namespace
 
 void show_seats(Workbench& bench) {
+  bench.is_drawn_fast = bench.is_moving();
   const std::size_t count = pane_count(bench);
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const ImVec2 low = ImGui::GetCursorScreenPos();

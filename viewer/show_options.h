@@ -15,6 +15,7 @@ struct ShowOptions {
   std::string color_by;          // as in RenderOptions
   bool with_scale = false;       // as in RenderOptions
   std::set<std::string> layers;  // by name, over the tree
+  bool are_slices = true;        // of fields of voxels: one slice, not all
   Arrangement arrangement = Arrangement::side_by_side;
 
   bool operator==(const ShowOptions&) const = default;

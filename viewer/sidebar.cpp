@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "common/config/differences.h"
+#include "viewer/numbers_view.h"
+#include "viewer/show_view.h"
 
 namespace ramify {
 namespace {
@@ -94,12 +96,26 @@ void show_parameters(Workbench& bench) {
   ImGui::EndChild();
 }
 
+void page(Workbench& bench, const char* name, void (*content)(Workbench&)) {
+  const bool is_open = ImGui::BeginTabItem(name);
+  bench.report.add(std::string("page.") + name);
+  if (!is_open) return;
+  ImGui::Spacing();
+  content(bench);
+  ImGui::EndTabItem();
+}
+
 }  // namespace
 
 void show_sidebar(Workbench& bench) {
   choose_seat(bench);
   ImGui::PushID(static_cast<int>(bench.active));
-  show_parameters(bench);
+  if (ImGui::BeginTabBar("pages")) {
+    page(bench, "Parameters", show_parameters);
+    page(bench, "Show", show_choices);
+    page(bench, "Numbers", show_numbers);
+    ImGui::EndTabBar();
+  }
   ImGui::PopID();
 }
 

@@ -10,8 +10,10 @@
 #include "common/base/errors.h"
 #include "viewer/actions.h"
 #include "viewer/commands.h"
+#include "viewer/gallery.h"
 #include "viewer/menus.h"
 #include "viewer/seat_view.h"
+#include "viewer/settings.h"
 #include "viewer/sidebar.h"
 #include "viewer/window.h"
 #include "viewer/workbench.h"
@@ -46,7 +48,7 @@ void area(const char* name, const ImVec2& low, const ImVec2& size, const ImVec2&
   ImGui::End();
 }
 
-void lay_out(Workbench& bench) {
+void lay_out(Workbench& bench, Gallery& gallery) {
   show_menus(bench);
   const ImGuiViewport& whole = *ImGui::GetMainViewport();
   const float scale = ImGui::GetFontSize() / 15.0f;
@@ -54,7 +56,15 @@ void lay_out(Workbench& bench) {
   const float status = ImGui::GetFrameHeight() + 2.0f;
   const ImVec2 low = whole.WorkPos;
   const ImVec2 size(whole.WorkSize.x, std::max(1.0f, whole.WorkSize.y - status));
-  area("pictures", low, {size.x - sidebar, size.y}, {0.0f, 0.0f}, [&] { show_seats(bench); });
+  const bool has_gallery = bench.shows_gallery && size.y > 3.0f * Gallery::height();
+  const float strip = has_gallery ? Gallery::height() : 0.0f;
+  area("pictures", low, {size.x - sidebar, size.y - strip}, {0.0f, 0.0f}, [&] { show_seats(bench); });
+  if (has_gallery) {
+    const bool is_busy = std::any_of(bench.seats.begin(), bench.seats.end(),
+                                     [](const auto& seat) { return seat->document.work().is_busy; });
+    area("presets", {low.x, low.y + size.y - strip}, {size.x - sidebar, strip}, {8.0f, 6.0f},
+         [&] { gallery.show(bench, is_busy || bench.is_moving()); });
+  }
   area("sidebar", {low.x + size.x - sidebar, low.y}, {sidebar, size.y}, ImGui::GetStyle().WindowPadding,
        [&] { show_sidebar(bench); });
   area("status", {low.x, low.y + size.y}, {size.x, status}, {10.0f, 3.0f}, [&] { show_status(bench); });
@@ -62,13 +72,14 @@ void lay_out(Workbench& bench) {
   show_prompt(bench);
 }
 
-/// What a driving program waits for: trees on show and at rest, and how long a change took.
+/// What a driving program waits for. "TREE seat internodes draft|fine delay now": a tree is on show, so many
+/// milliseconds after the input that changed it, at so many seconds; "READY": all trees are, and at rest.
 class Drive {
  public:
   void tell(Workbench& bench) {
     if (!bench.report.is_on()) return;
     bench.report.flush();
-    bool is_settled = !bench.is_moving() && ImGui::GetFrameCount() >= kFirstFrames;
+    bool is_settled = !bench.is_drawn_fast && ImGui::GetFrameCount() >= kFirstFrames;
     for (std::size_t index = 0; index < bench.seats.size(); ++index) {
       const Document& document = bench.seats[index]->document;
       const Product* product = document.product();
@@ -77,9 +88,9 @@ class Drive {
       told_[index] = product->serial;
       const double delay =
           document.product_edit_time() > 0.0 ? Window::now() - document.product_edit_time() : 0.0;
-      bench.report.say(fmt::format("TREE {} {} {} {:.1f}", seat_name(index),
+      bench.report.say(fmt::format("TREE {} {} {} {:.1f} {:.3f}", seat_name(index),
                                    product->skeleton.internode_count(), product->is_draft ? "draft" : "fine",
-                                   1000.0 * delay));
+                                   1000.0 * delay, Window::now()));
     }
     if (is_settled && !was_settled_) bench.report.say("READY");
     was_settled_ = is_settled;
@@ -95,13 +106,16 @@ class Drive {
 
 void run(Workbench& bench) {
   Drive drive;
+  Gallery gallery;
   const std::stop_callback waking(bench.services.stop, Window::wake);
   while (!bench.window.wants_to_close() && !bench.services.stop.stop_requested()) {
     bench.window.begin_frame();
     obey_keys(bench);
     if (const auto dropped = bench.window.take_dropped(); !dropped.empty()) open_dropped(bench, dropped);
+    // What is held is not at rest.
+    if (bench.is_moving() && ImGui::IsAnyItemActive()) bench.last_motion = Window::now();
     const double rest = tend(bench);
-    lay_out(bench);
+    lay_out(bench, gallery);
     bench.window.end_frame();
     drive.tell(bench);
     const bool is_fresh =
@@ -110,14 +124,46 @@ void run(Workbench& bench) {
   }
 }
 
+void take_over(const Settings& settings, Workbench& bench) {
+  bench.are_cameras_linked = settings.are_cameras_linked;
+  bench.is_same_scale = settings.is_same_scale;
+  bench.show.with_scale = settings.with_scale;
+}
+
+/// For the next time. What cannot be kept is no reason to fail.
+void keep(Settings settings, const Workbench& bench, bool had_gallery) {
+  bench.window.size(settings.width, settings.height);
+  settings.width = std::clamp(settings.width, 200, 32'768);
+  settings.height = std::clamp(settings.height, 200, 32'768);
+  settings.are_cameras_linked = bench.are_cameras_linked;
+  settings.is_same_scale = bench.is_same_scale;
+  settings.with_scale = bench.show.with_scale;
+  if (had_gallery) settings.shows_gallery = bench.shows_gallery;
+  try {
+    write_settings(settings, settings_file());
+  } catch (const IoError& error) {
+    fmt::print(stderr, "ramify: warning: the window's settings are not kept: {}\n", error.what());
+  }
+}
+
 }  // namespace
 
 void view(const ViewServices& services, const ViewOptions& options) {
-  Window window("ramify", {options.width, options.height, options.is_driven});
+  // What cannot be opened is told of before a window comes up.
+  std::vector<Opened> opened;
+  for (const std::string& input : options.inputs) opened.push_back(services.open(input));
+  std::string problem;
+  Settings settings = read_settings(settings_file(), problem);
+  Window window("ramify", {options.width > 0 ? options.width : settings.width,
+                           options.height > 0 ? options.height : settings.height, options.is_driven});
   Workbench bench{services, window, WidgetReport(options.is_driven)};
-  for (const std::string& input : options.inputs) open_in_seat(bench, bench.seats.size(), input);
+  if (!problem.empty()) bench.say(problem, true);
+  take_over(settings, bench);
+  bench.shows_gallery = options.shows_gallery && settings.shows_gallery;
+  for (Opened& tree : opened) bench.seats.push_back(std::make_unique<Seat>(std::move(tree)));
   bench.active = 0;
   run(bench);
+  keep(settings, bench, options.shows_gallery);
   if (!window.gl_errors().empty()) throw RunError("OpenGL: " + window.gl_errors().front());
 }
 

@@ -35,9 +35,10 @@ struct ViewServices {
 
 struct ViewOptions {
   std::vector<std::string> inputs;  // at most two
-  int width = 1280;
-  int height = 800;
-  bool is_driven = false;  // by a test: tells where its widgets are (widget_report.h) and checks OpenGL
+  int width = 0;                    // of the window; 0: as it was left
+  int height = 0;
+  bool shows_gallery = false;  // if it was not closed the last time
+  bool is_driven = false;      // by a test: tells where its widgets are (widget_report.h) and checks OpenGL
 };
 
 /// Opens the window and returns when it is closed. Throws GraphicsError without a display or OpenGL 3.3, what

@@ -45,11 +45,12 @@ void APIENTRY note_gl_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLe
 
 std::string key_name(int key, int scancode) {
   static const std::map<int, std::string> kNamed = {
-      {GLFW_KEY_SPACE, "space"}, {GLFW_KEY_ESCAPE, "escape"}, {GLFW_KEY_F12, "F12"},
-      {GLFW_KEY_HOME, "home"},   {GLFW_KEY_LEFT, "left"},     {GLFW_KEY_RIGHT, "right"},
-      {GLFW_KEY_KP_1, "1"},      {GLFW_KEY_KP_3, "3"},        {GLFW_KEY_KP_7, "7"},
+      {GLFW_KEY_SPACE, "space"}, {GLFW_KEY_ESCAPE, "escape"}, {GLFW_KEY_HOME, "home"},
+      {GLFW_KEY_LEFT, "left"},   {GLFW_KEY_RIGHT, "right"},   {GLFW_KEY_KP_1, "1"},
+      {GLFW_KEY_KP_3, "3"},      {GLFW_KEY_KP_7, "7"},
   };
   if (const auto named = kNamed.find(key); named != kNamed.end()) return named->second;
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return fmt::format("F{}", key - GLFW_KEY_F1 + 1);
   // By what is printed on it: z is elsewhere on a German keyboard.
   const char* name = glfwGetKeyName(key, scancode);
   return name == nullptr ? "" : name;

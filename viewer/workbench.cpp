@@ -123,7 +123,7 @@ double tend(Workbench& bench) {
   for (const auto& seat : bench.seats) {
     look_at_file(bench, *seat);
     play(bench, *seat);
-    seat->document.update(now);
+    seat->document.update(now, !bench.is_moving());
     if (seat->watch) wait = std::min(wait, kWatchEvery);
     if (seat->next_step_at) wait = std::min(wait, *seat->next_step_at - now);
     if (const auto due = seat->document.due_in(now)) wait = std::min(wait, *due);

@@ -58,9 +58,11 @@ struct Workbench {
   bool is_same_scale = false;
   bool are_parameters_linked = false;
   bool shows_help = false;
+  bool shows_gallery = false;
 
-  double last_motion = -1.0;  // when a slider or camera last moved
-  std::string message = {};   // about what was done last
+  double last_motion = -1.0;   // when a slider or camera last moved
+  bool is_drawn_fast = false;  // the pictures of this frame
+  std::string message = {};    // about what was done last
   bool is_message_bad = false;
   std::optional<Prompt> prompt = {};
   std::future<std::string> writing = {};  // what is to be said when a file is written

@@ -68,6 +68,7 @@ void dress(Product& product, const Order& order) {
   if (!order.is_draft) {
     product.sky = sky_light(product.mesh, base_of({.mesh = &product.mesh, .skeleton = &product.skeleton}).y);
   }
+  if (!order.is_draft) product.numbers = numbers_of(product.skeleton);
   product.mesh_seconds = now_seconds() - start;
 }
 

@@ -17,6 +17,7 @@
 #include "common/config/job.h"
 #include "common/mesh/mesh.h"
 #include "common/skeleton/skeleton.h"
+#include "viewer/numbers.h"
 #include "viewer/sky_light.h"
 
 namespace ramify {
@@ -42,8 +43,9 @@ struct Product {
   std::uint32_t last_step = 0;           // or level, of the whole run; 0 where there is neither
   Skeleton skeleton;                     // what is shown of it
   Mesh mesh;
-  Box box;       // around both
-  SkyLight sky;  // of the mesh; empty for a draft
+  Box box;                         // around both
+  SkyLight sky;                    // of the mesh; empty for a draft
+  std::optional<Numbers> numbers;  // of what is shown; none for a draft
   bool is_draft = false;
   double run_seconds = 0.0;   // 0 if there was no run
   double mesh_seconds = 0.0;  // with cutting and the sky's light

@@ -50,6 +50,29 @@ std::vector<double> to_logarithms(std::vector<double> values) {
   return values;
 }
 
+void require_attribute(const Skeleton& skeleton, std::string_view name, std::string_view asked_by) {
+  const std::vector<std::string> known = color_attributes(skeleton);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw InputError(
+      fmt::format("{}: the tree has no attribute '{}' (it has {})", asked_by, name, fmt::join(known, ", ")));
+}
+
+struct Extremes {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+/// Of the internodes: root nodes bear none, what they hold must not stretch the scale.
+Extremes extremes(const Skeleton& skeleton, const std::vector<double>& values, bool only_positive) {
+  Extremes result;
+  for (std::size_t node = skeleton.root_count(); node < values.size(); ++node) {
+    if (!std::isfinite(values[node]) || (only_positive && values[node] <= 0.0)) continue;
+    result.low = std::min(result.low, values[node]);
+    result.high = std::max(result.high, values[node]);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::string> color_attributes(const Skeleton& skeleton) {
@@ -62,13 +85,23 @@ std::vector<std::string> color_attributes(const Skeleton& skeleton) {
   return names;
 }
 
-std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name) {
-  const std::vector<std::string> known = color_attributes(skeleton);
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    throw InputError(
-        fmt::format("--color-by: the tree has no attribute '{}' (it has {})", name, fmt::join(known, ", ")));
+AttributeScale attribute_scale(const Skeleton& skeleton, std::string_view name) {
+  require_attribute(skeleton, name, "--color-by");
+  const auto [values, scale] = attribute(skeleton, name);
+  AttributeScale result;
+  result.is_categorical = scale == Scale::categorical;
+  result.is_logarithmic = scale == Scale::logarithmic;
+  const Extremes found = extremes(skeleton, values, result.is_logarithmic);
+  if (found.low <= found.high) {
+    result.low = found.low;
+    result.high = found.high;
   }
+  return result;
+}
 
+std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name,
+                                    std::string_view asked_by) {
+  require_attribute(skeleton, name, asked_by);
   auto [values, scale] = attribute(skeleton, name);
   std::vector<Color> colors(values.size());
   if (scale == Scale::categorical) {
@@ -78,18 +111,12 @@ std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view n
     return colors;
   }
 
-  // Root nodes bear no internode: what they hold must not stretch the scale.
-  for (std::size_t node = 0; node < values.size(); ++node) {
-    if (skeleton.is_root(node)) values[node] = std::numeric_limits<double>::quiet_NaN();
+  // Root nodes are grey.
+  for (std::size_t node = 0; node < skeleton.root_count(); ++node) {
+    values[node] = std::numeric_limits<double>::quiet_NaN();
   }
   if (scale == Scale::logarithmic) values = to_logarithms(std::move(values));
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  for (double value : values) {
-    if (!std::isfinite(value)) continue;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
+  const auto [low, high] = extremes(skeleton, values, false);
   for (std::size_t node = 0; node < values.size(); ++node) {
     colors[node] = sequential_color(high > low ? (values[node] - low) / (high - low) : values[node] - low);
   }

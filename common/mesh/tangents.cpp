@@ -71,7 +71,7 @@ void compute_tangents(Mesh& mesh) {
   mesh.tangents.clear();
   const std::vector<Block> blocks = blocks_of(mesh);
   if (blocks.empty()) return;
-  mesh.tangents.resize(mesh.vertex_count());
+  mesh.tangents.assign(mesh.vertex_count(), glm::vec4(0.0f));  // resize() would leave them unset
   // Each task sums up for its own vertices, in the order of the triangles, whatever block they are in.
   parallel_for(mesh.vertex_count(), kVerticesATask, [&](std::size_t begin, std::size_t end) {
     std::fill(mesh.tangents.begin() + static_cast<std::ptrdiff_t>(begin),

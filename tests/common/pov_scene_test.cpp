@@ -32,7 +32,8 @@ TEST_CASE("POV-Ray: a cone an internode, a sphere a node, a camera and two light
   CHECK(count(scene, "\nsphere {") == 4);
   CHECK(count(scene, "\ncamera {") == 1);
   CHECK(count(scene, "\nlight_source {") == 2);
-  CHECK(scene.find("cone { <0, 0, 0>, 0.1, <0, 1, 0>, ") != std::string::npos);
+  CHECK(scene.find("\ncone { <0, 1, 0>, 0.08333333333333334, <0, 2, 0>, 0.06666666666666667 }\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("POV-Ray: comments say what made the scene") {

@@ -35,7 +35,7 @@ void set(Document& document, const std::string& key, const std::string& value) {
 /// Until the tree is there as it is when all has come to rest.
 bool settles(Document& document) {
   for (int i = 0; i < 2000; ++i) {
-    document.update(1e9);
+    document.update(1e9, true);
     if (document.is_settled()) return true;
     std::this_thread::sleep_for(5ms);
   }
@@ -70,7 +70,7 @@ TEST_CASE("document: parameters that cannot be keep the last tree and say why") 
   set(document, "mesher.sides_min", "30");
   document.edited(0.0);
   CHECK(document.error().find("mesher.sides_min: 30 is more than sides_max") != std::string::npos);
-  document.update(1e9);
+  document.update(1e9, true);
   CHECK(document.product() == before);
   set(document, "mesher.sides_min", "4");
   document.edited(0.0);

@@ -1,0 +1,116 @@
+#include "viewer/gallery.h"
+
+#include <epoxy/gl.h>
+#include <imgui.h>
+
+#include <cstdint>
+#include <string_view>
+
+#include "common/base/errors.h"
+#include "common/config/presets.h"
+#include "viewer/actions.h"
+#include "viewer/workbench.h"
+
+namespace ramify {
+namespace {
+
+constexpr int kPictureWidth = 92;  // pixels
+constexpr int kPictureHeight = 104;
+
+GlTexture texture_of(const Image& image) {
+  GlTexture texture;
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               image.rgba.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
+}  // namespace
+
+Gallery::Gallery() : workshop_(Window::wake) {}
+
+float Gallery::height() {
+  return static_cast<float>(kPictureHeight) + 2.0f * ImGui::GetTextLineHeight() + 22.0f;
+}
+
+void Gallery::take() {
+  const std::unique_ptr<Product> product = workshop_.take();
+  if (!product) return;
+  Thumbnail& thumbnail = thumbnails_[making_];
+  making_.clear();
+  if (!product->error.empty()) return;
+  const double aspect = static_cast<double>(kPictureWidth) / kPictureHeight;
+  Orbit orbit;
+  orbit.is_parallel = true;
+  orbit.elevation_deg = 4.0;
+  ShowOptions show;
+  show.style = RenderStyle::schematic;
+  pane_.picture({{product.get(), std::nullopt}}, show, framed(orbit, product->box, aspect), 2 * kPictureWidth,
+                2 * kPictureHeight, false);
+  thumbnail.texture = texture_of(pane_.image());
+}
+
+void Gallery::make_next(Workbench& bench) {
+  if (wanted_.empty() || !making_.empty()) return;
+  making_ = wanted_;
+  try {
+    const Opened opened = bench.services.open(making_);
+    workshop_.order({.number = 1, .job = std::make_shared<const Job>(*opened.job), .is_draft = true});
+  } catch (const std::exception&) {
+    thumbnails_[making_];  // stays empty
+    making_.clear();
+  }
+}
+
+void Gallery::show(Workbench& bench, bool is_busy) {
+  take();
+  wanted_.clear();
+  ImGui::BeginChild("gallery", {0.0f, 0.0f}, false, ImGuiWindowFlags_HorizontalScrollbar);
+  for (const Preset& preset : presets()) {
+    const std::string name(preset.name);
+    if (&preset != &presets().front()) ImGui::SameLine();
+    ImGui::PushID(name.c_str());
+    ImGui::BeginGroup();
+    const ImVec2 size(kPictureWidth, kPictureHeight);
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const bool is_chosen = ImGui::InvisibleButton("picture", size);
+    const bool is_visible = ImGui::IsItemVisible();
+    bench.report.add("preset." + name);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 high(low.x + size.x, low.y + size.y);
+    const auto found = thumbnails_.find(name);
+    if (found != thumbnails_.end() && found->second.texture) {
+      list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(found->second.texture->id())),
+                    low, high, {0.0f, 0.0f}, {1.0f, 1.0f}, IM_COL32(225, 225, 225, 255));
+    } else {
+      list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0f);
+    }
+    if (ImGui::IsItemHovered()) {
+      list.AddRect(low, high, ImGui::GetColorU32(ImGuiCol_SliderGrab), 0.0f, 0, 2.0f);
+      const std::string_view about = summary(preset);
+      ImGui::SetTooltip("%.*s\nShift: beside the other tree", static_cast<int>(about.size()), about.data());
+    }
+    if (is_visible && wanted_.empty() && found == thumbnails_.end() && name != making_) wanted_ = name;
+    ImGui::PushClipRect(low, {high.x, high.y + 2.0f * ImGui::GetTextLineHeight()}, true);
+    ImGui::TextDisabled("%s", name.c_str());
+    ImGui::PopClipRect();
+    ImGui::EndGroup();
+    ImGui::PopID();
+    if (is_chosen && ImGui::GetIO().KeyShift) {
+      open_beside(bench, name);
+    } else if (is_chosen) {
+      open_input(bench, name);
+    }
+  }
+  // The strip has one direction to go.
+  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && ImGui::GetIO().MouseWheel != 0.0f) {
+    ImGui::SetScrollX(ImGui::GetScrollX() - ImGui::GetIO().MouseWheel * 2.0f * kPictureWidth);
+  }
+  ImGui::EndChild();
+  if (!is_busy) make_next(bench);
+}
+
+}  // namespace ramify

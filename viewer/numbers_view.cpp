@@ -1,0 +1,119 @@
+#include "viewer/numbers_view.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/mesh/palette.h"
+
+namespace ramify {
+namespace {
+
+std::string text_of(const MetricInfo& info, const std::optional<double>& value) {
+  if (!value) return "-";
+  return info.is_count ? fmt::format("{:.0f}", *value) : fmt::format("{:.4g}", *value);
+}
+
+void right_aligned(const std::string& text) {
+  const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, free));
+  ImGui::TextUnformatted(text.c_str());
+}
+
+const Numbers* numbers_of_seat(const Workbench& bench, std::size_t index) {
+  const Product* product = bench.seats[index]->document.product();
+  return product != nullptr && product->numbers ? &*product->numbers : nullptr;
+}
+
+void metric_row(const MetricInfo& info, const Workbench& bench) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(info.key.data(), info.key.data() + info.key.size());
+  if (ImGui::IsItemHovered()) {
+    const std::string more =
+        fmt::format("{}{}{}", info.help, info.unit.empty() ? "" : fmt::format(", in {}", info.unit),
+                    info.reference.empty() ? "" : fmt::format("\nreal trees: {}", info.reference));
+    ImGui::SetTooltip("%s", more.c_str());
+  }
+  std::vector<std::optional<double>> values;
+  for (std::size_t index = 0; index < bench.seats.size(); ++index) {
+    const Numbers* numbers = numbers_of_seat(bench, index);
+    values.push_back(numbers == nullptr ? std::nullopt : info.value(numbers->metrics));
+    ImGui::TableNextColumn();
+    right_aligned(text_of(info, values.back()));
+  }
+  if (values.size() < 2) return;
+  ImGui::TableNextColumn();
+  right_aligned(values[0] && values[1] ? text_of(info, *values[1] - *values[0]) : "-");
+}
+
+void metric_rows(Workbench& bench) {
+  const int columns = bench.seats.size() > 1 ? 4 : 2;
+  if (!ImGui::BeginTable("metrics", columns, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch, 1.7f);
+  for (std::size_t index = 0; index < bench.seats.size(); ++index) {
+    ImGui::TableSetupColumn(seat_name(index).c_str(), ImGuiTableColumnFlags_WidthStretch, 0.8f);
+  }
+  if (columns == 4) ImGui::TableSetupColumn("B - A", ImGuiTableColumnFlags_WidthStretch, 0.8f);
+  ImGui::TableHeadersRow();
+  for (const MetricInfo& info : metric_table()) metric_row(info, bench);
+  ImGui::EndTable();
+}
+
+/// Bars of the classes, those of the orders stacked.
+void bars(const char* title, const char* unit, const Histogram& histogram) {
+  constexpr float kHeight = 90.0f;
+  ImGui::Spacing();
+  ImGui::TextUnformatted(title);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, kHeight);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0f);
+  float most = 1.0f;
+  for (std::size_t index = 0; index < Histogram::kClasses; ++index) {
+    float sum = 0.0f;
+    for (const auto& order : histogram.by_order) sum += order[index];
+    most = std::max(most, sum);
+  }
+  const float width = size.x / Histogram::kClasses;
+  for (std::size_t index = 0; index < Histogram::kClasses; ++index) {
+    float y = low.y + size.y;
+    for (std::size_t order = 0; order < histogram.by_order.size(); ++order) {
+      const float height = histogram.by_order[order][index] / most * (size.y - 6.0f);
+      const Color color = categorical_color(order);
+      const float x = low.x + width * static_cast<float>(index);
+      list.AddRectFilled({x + 1.0f, y - height}, {x + width - 1.0f, y},
+                         ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1.0f}));
+      y -= height;
+    }
+  }
+  ImGui::Dummy(size);
+  ImGui::TextDisabled("0");
+  const std::string end = fmt::format("{:.3g} {}", histogram.high, unit);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(end.c_str()).x);
+  ImGui::TextDisabled("%s", end.c_str());
+}
+
+}  // namespace
+
+void show_numbers(Workbench& bench) {
+  ImGui::BeginChild("numbers");
+  metric_rows(bench);
+  if (const Numbers* numbers = numbers_of_seat(bench, bench.active)) {
+    const std::string of = bench.seats.size() > 1 ? " of " + seat_name(bench.active) : "";
+    bars(("Branching angles" + of + ", by order").c_str(), "degrees", numbers->angles);
+    bars(("Lengths of axes" + of + ", by order").c_str(), "m", numbers->lengths);
+    for (std::size_t order = 0; order < numbers->angles.by_order.size(); ++order) {
+      const Color color = categorical_color(order);
+      const bool is_last = order + 1 == numbers->angles.by_order.size() && order > 0;
+      if (order > 0) ImGui::SameLine();
+      ImGui::TextColored({color.r, color.g, color.b, 1.0f}, "%zu%s", order, is_last ? " and above" : "");
+    }
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace ramify

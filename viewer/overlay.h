@@ -1,0 +1,62 @@
+// What is shown over a tree beside its wood: an engine's layers, and the volumes of its config.
+#pragma once
+
+#include <array>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/base/color.h"
+#include "viewer/camera.h"
+#include "viewer/gl_objects.h"
+#include "viewer/painter.h"
+#include "viewer/workshop.h"
+
+namespace ramify {
+
+/// The overlay that is no engine's: the outlines of all volumes in a config.
+inline constexpr const char* kVolumes = "volumes";
+
+/// Segments in the world; of no length: points.
+struct Marks {
+  std::vector<Vec3f> starts;
+  std::vector<Vec3f> ends;
+  std::vector<ColorBytes> colors;
+  double width = 1.5;  // pixels
+
+  void add(const Vec3& start, const Vec3& end, const Color& color);
+};
+
+/// The marks of one overlay, of a field of voxels all or the slice through the origin that faces +Z; empty if
+/// the product has none of that name. Values are coloured from the least
+/// to the greatest; of very many marks evenly chosen ones are left.
+Marks marks_of(const Product& product, const std::string& name, bool is_slice);
+
+/// What can be asked for: the layers that the product's engine makes, and the volumes of its config.
+std::vector<std::string> overlay_names(const Job& job);
+
+/// The marks on the GPU. Needs a current context.
+class Overlay {
+ public:
+  Overlay();
+
+  void load(const Product& product, const std::set<std::string>& names, bool are_slices);
+
+  /// Over what is in the framebuffer, behind what is nearer.
+  void draw(const Camera& camera, const Viewport& viewport) const;
+
+ private:
+  struct Batch {
+    GlVertexArray vertices;
+    GlBuffer starts;
+    GlBuffer ends;
+    GlBuffer colors;
+    int count = 0;
+    double width = 1.0;
+  };
+
+  GlProgram line_;
+  std::vector<Batch> batches_;
+};
+
+}  // namespace ramify
