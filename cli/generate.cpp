@@ -195,14 +195,16 @@ void generate(const GenerateFlags& flags, const Session& session) {
 void add_generate(CLI::App& program, const Session& session) {
   auto flags = std::make_shared<GenerateFlags>();
   CLI::App* command = program.add_subcommand("generate", "Make a tree and write it to files");
-  command->add_option("config", flags->config, "A preset (`ramify presets`), or a TOML file")
+  command
+      ->add_option("config", flags->config,
+                   "A preset (`ramify presets`), a TOML file, or a .glb, .gltf or .skel.ply that ramify made")
       ->type_name("CONFIG")
       ->required();
   command
-      ->add_option("-o,--output", flags->outputs,
-                   "File to write, by its ending: .glb .gltf .obj .ply .stl mesh, .pov scene, .csv skeleton, "
-                   ".png picture, .vdb "
-                   "shadow (repeatable)")
+      ->add_option(
+          "-o,--output", flags->outputs,
+          "File to write, by its ending: .glb .gltf .obj .ply .stl mesh, .pov scene, .csv .skel.ply .swc "
+          ".mtg skeleton, .png picture, .vdb shadow (repeatable)")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->add_option("--at-step", flags->at_step, "The tree as it was after step K")

@@ -59,6 +59,10 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
 
 }  // namespace
 
+bool is_config(const std::string& input) {
+  return !is_mesh(input) && !is_skeleton_file(input);
+}
+
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
   if (is_mesh(input)) {
     throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",

@@ -25,6 +25,9 @@ struct InputFlags {
   RunFlags running;
 };
 
+/// Whether the input is a preset's name or a config file: what no other ending tells of.
+bool is_config(const std::string& input);
+
 /// The skeleton of a config or a skeleton file, alive at the step asked for. Throws InputError for a mesh,
 /// and for flags that do not go with the kind of input.
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session);

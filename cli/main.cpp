@@ -77,7 +77,9 @@ int run(int argc, char** argv) {
   program.require_subcommand(0, 1);
   add_generate(program, session);
   add_render(program, session);
+  add_view(program, session);
   add_stats(program, session);
+  add_convert(program);
   add_presets(program);
   add_params(program, session);
   add_check(program, session);

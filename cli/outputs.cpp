@@ -10,7 +10,7 @@
 #include "common/base/image.h"
 #include "common/format/layer_files.h"
 #include "common/format/pov_scene.h"
-#include "common/format/skeleton_table.h"
+#include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/obj.h"
 #include "common/mesh/ply.h"
@@ -33,10 +33,13 @@ constexpr std::array kEndings = {
     Ending{".glb", OutputForm::glb},
     Ending{".gltf", OutputForm::gltf},
     Ending{".obj", OutputForm::obj},
+    Ending{".skel.ply", OutputForm::skeleton},  // before .ply, in which it ends
     Ending{".ply", OutputForm::ply},
     Ending{".stl", OutputForm::stl},
     Ending{".pov", OutputForm::pov_scene},
-    Ending{".csv", OutputForm::skeleton_table},
+    Ending{".csv", OutputForm::skeleton},
+    Ending{".swc", OutputForm::skeleton},
+    Ending{".mtg", OutputForm::skeleton},
     Ending{".png", OutputForm::picture},
     Ending{".vdb", OutputForm::shadow_grid},
 };
@@ -56,6 +59,11 @@ const Data& layer_data(const Results& results, const Output& output) {
   return std::get<Data>(std::find_if(layers.begin(), layers.end(), is_named)->data);
 }
 
+bool is_ending_of(std::string_view ending, const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  return name.size() > ending.size() && name.ends_with(ending);
+}
+
 Image picture(const Results& results) {
   Renderer renderer;
   return renderer.render({.mesh = &results.tree.mesh, .skeleton = &results.run.skeleton}, {});
@@ -73,7 +81,7 @@ bool Output::needs_mesh() const {
     case OutputForm::picture:
       return true;
     case OutputForm::pov_scene:
-    case OutputForm::skeleton_table:
+    case OutputForm::skeleton:
     case OutputForm::shadow_grid:
     case OutputForm::graph:
       return false;
@@ -93,14 +101,18 @@ std::vector<fs::path> Output::files() const {
   return {path};
 }
 
+std::string known_endings() {
+  std::vector<std::string_view> endings;
+  for (const Ending& known : kEndings) endings.push_back(known.text);
+  return fmt::format("{}", fmt::join(endings, " "));
+}
+
 Output output_of(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   for (const Ending& known : kEndings) {
-    if (ending == known.text) return {known.form, path};
+    if (is_ending_of(known.text, path)) return {known.form, path};
   }
-  std::vector<std::string_view> endings;
-  for (const Ending& known : kEndings) endings.push_back(known.text);
-  throw InputError(fmt::format("{}: unknown ending '{}' ({})", path, ending, fmt::join(endings, " ")));
+  throw InputError(fmt::format("{}: unknown ending '{}' ({})", path, ending, known_endings()));
 }
 
 void write_output(const Output& output, const Results& results, OutputFiles& files) {
@@ -129,8 +141,8 @@ void write_output(const Output& output, const Results& results, OutputFiles& fil
     case OutputForm::pov_scene:
       write_pov_scene(living(results.run.skeleton), provenance, files.add(path));
       break;
-    case OutputForm::skeleton_table:
-      write_skeleton_table(results.run.skeleton, files.add(path));
+    case OutputForm::skeleton:
+      write_skeleton(results.run.skeleton, *skeleton_form(path), provenance, files.add(path));
       break;
     case OutputForm::picture:
       write_png(picture(results), files.add(path));

@@ -11,7 +11,7 @@
 
 namespace ramify::cli {
 
-enum class OutputForm { glb, gltf, obj, ply, stl, pov_scene, skeleton_table, picture, shadow_grid, graph };
+enum class OutputForm { glb, gltf, obj, ply, stl, pov_scene, skeleton, picture, shadow_grid, graph };
 
 struct Output {
   OutputForm form = OutputForm::glb;
@@ -23,6 +23,9 @@ struct Output {
   /// The files it consists of for certain: an .obj has its .mtl and may have images, a graph its .nodes.csv.
   std::vector<std::filesystem::path> files() const;
 };
+
+/// ".glb .obj": all that output_of() knows.
+std::string known_endings();
 
 /// Which form a file's ending asks for. Throws InputError naming the endings known.
 Output output_of(const std::string& path);

@@ -55,15 +55,22 @@ glm::dmat4 Camera::world_to_clip() const {
          view;
 }
 
+double field_of_view() {
+  return std::tan(radians(kFieldOfViewDeg / 2.0));
+}
+
 Framer::Framer(const ViewDirection& view, double aspect, double margin)
+    : Framer(view,
+             field_of_view() * (aspect >= 1.0 ? glm::dvec2(1.0, 1.0 / aspect) : glm::dvec2(aspect, 1.0)),
+             margin) {}
+
+Framer::Framer(const ViewDirection& view, const glm::dvec2& half_size, double margin)
     : axes_(camera_axes(view.azimuth_deg, view.elevation_deg)),
       is_parallel_(view.is_parallel),
+      half_size_(half_size),
+      free_size_(half_size * (1.0 - 2.0 * margin)),
       high_side_(-std::numeric_limits<double>::infinity()),
-      low_side_(std::numeric_limits<double>::infinity()) {
-  const double longer = std::tan(radians(kFieldOfViewDeg / 2.0));
-  half_size_ = aspect >= 1.0 ? glm::dvec2(longer, longer / aspect) : glm::dvec2(longer * aspect, longer);
-  free_size_ = half_size_ * (1.0 - 2.0 * margin);
-}
+      low_side_(std::numeric_limits<double>::infinity()) {}
 
 void Framer::include(const Vec3& point) {
   const Vec3 at = axes_.coordinates(point);

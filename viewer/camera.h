@@ -46,6 +46,9 @@ struct Camera {
   glm::dmat4 world_to_clip() const;
 };
 
+/// Tangent of half the angle that cameras with perspective see along the picture's longer side.
+double field_of_view();
+
 /// Finds the camera that has all the points it was shown in the picture, as large as they fit. Only their
 /// extremes are kept.
 class Framer {
@@ -53,6 +56,9 @@ class Framer {
   /// `aspect` is the picture's width over its height; `margin` is left free at each edge, in parts of the
   /// picture.
   Framer(const ViewDirection& view, double aspect, double margin);
+
+  /// With half the size of the whole picture given, as in Camera; in proportion if parallel.
+  Framer(const ViewDirection& view, const glm::dvec2& half_size, double margin);
 
   void include(const Vec3& point);
 

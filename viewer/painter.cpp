@@ -91,6 +91,16 @@ glm::mat4 moved(const glm::dmat4& world_to_clip, const Vec3& origin) {
   return glm::mat4(glm::translate(world_to_clip, origin));
 }
 
+/// Metres of the longest side of the mesh's box; 0 for none.
+double longest_side(const Mesh* mesh) {
+  Box box;
+  if (mesh != nullptr) {
+    for (const Vec3f& position : mesh->positions) box.include(Vec3(position));
+  }
+  if (box.is_empty()) return 0.0;
+  return std::max({box.size().x, box.size().y, box.size().z});
+}
+
 }  // namespace
 
 Painter::Painter()
@@ -183,9 +193,15 @@ void Painter::load_lines(const Scene& scene) {
 
 void Painter::load_sky_light(const Scene& scene) {
   SkyLight sky;
-  if (scene.mesh != nullptr) sky = sky_light(*scene.mesh, base_.y);
+  if (options_.with_occlusion && scene.sky != nullptr) {
+    sky = *scene.sky;
+  } else if (options_.with_occlusion && scene.mesh != nullptr) {
+    sky = sky_light(*scene.mesh, base_.y);
+  }
   double size = 1.0;
   if (sky.visibility.empty()) {
+    // What the box of the sky's light would measure.
+    if (const double side = longest_side(scene.mesh); side > 0.0) size = 1.3 * side;
     sky.box = {base_, base_ + 1.0};
     sky.size = Coord(1);
     sky.visibility = {255};
@@ -243,8 +259,10 @@ void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_si
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   caster_.use();
-  cast(tree_);
-  cast(figure_);
+  if (options_.with_occlusion) {
+    cast(tree_);
+    cast(figure_);
+  }
   shadow_map_->finish();
 }
 
@@ -272,6 +290,16 @@ void Painter::draw(const Camera& camera, const Viewport& viewport) {
   glDisable(GL_DEPTH_TEST);
   draw_background(viewport);
 
+  draw_over(camera, viewport);
+  draw_flat(figure_, world_to_clip);
+  if (has_ground(camera)) draw_ground(world_to_clip);
+  glDisable(GL_DEPTH_TEST);
+  draw_flat(bar_, world_to_clip);
+  glBindVertexArray(0);
+}
+
+void Painter::draw_over(const Camera& camera, const Viewport& viewport) {
+  const glm::dmat4 world_to_clip = cropped(viewport) * camera.world_to_clip();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   if (options_.style == RenderStyle::skeleton) {
@@ -279,10 +307,6 @@ void Painter::draw(const Camera& camera, const Viewport& viewport) {
   } else {
     draw_tree(world_to_clip);
   }
-  draw_flat(figure_, world_to_clip);
-  if (has_ground(camera)) draw_ground(world_to_clip);
-  glDisable(GL_DEPTH_TEST);
-  draw_flat(bar_, world_to_clip);
   glBindVertexArray(0);
 }
 

@@ -37,8 +37,8 @@ class Painter {
   /// Adds figure and bar to what was loaded, in the plane through `base` spanned by right and up.
   void load_annotations(const Annotations& annotations, const Vec3& base, const CameraAxes& axes);
 
-  /// Makes the shadows of what was loaded from `scene`; before draw() in the style lit. `map_size`: pixels a
-  /// side. Leaves its own framebuffer bound.
+  /// Makes the shadows of what was loaded from `scene`; before draw() in the style lit, even where it is to
+  /// be without occlusion and there are none. `map_size`: pixels a side. Leaves its own framebuffer bound.
   void cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size);
 
   /// How far the ground reaches around the tree, metres; 0 in styles without one.
@@ -46,6 +46,9 @@ class Painter {
 
   /// Draws what was loaded, background first.
   void draw(const Camera& camera, const Viewport& viewport);
+
+  /// Draws the tree alone, among what another painter drew through the same camera.
+  void draw_over(const Camera& camera, const Viewport& viewport);
 
  private:
   /// Indices that are drawn in one go.

@@ -9,9 +9,6 @@
 namespace ramify {
 namespace {
 
-// With kSupersampling this makes 16 samples a pixel, which keeps twigs of a quarter pixel whole.
-constexpr int kSamples = 4;
-
 /// Makes `texture` the only attachment of `framebuffer`.
 void attach(const GlFramebuffer& framebuffer, const GlTexture& texture, GLint format, int width, int height) {
   glBindTexture(GL_TEXTURE_2D, texture.id());
@@ -25,13 +22,13 @@ void attach(const GlFramebuffer& framebuffer, const GlTexture& texture, GLint fo
 
 }  // namespace
 
-RenderTarget::RenderTarget(int width, int height)
-    : finish_("finish", shaders::screen_vertex(), shaders::finish_fragment()) {
-  const int fine_width = width * kSupersampling;
-  const int fine_height = height * kSupersampling;
+RenderTarget::RenderTarget(int width, int height, Sampling sampling)
+    : sampling_(sampling), finish_("finish", shaders::screen_vertex(), shaders::finish_fragment()) {
+  const int fine_width = width * sampling.fineness;
+  const int fine_height = height * sampling.fineness;
   GLint most_samples = 0;
   glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
-  const GLsizei samples = std::min(kSamples, most_samples);
+  const GLsizei samples = sampling.samples > 1 ? std::min(sampling.samples, most_samples) : 0;
 
   glBindRenderbuffer(GL_RENDERBUFFER, samples_.id());
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA16F, fine_width, fine_height);
@@ -50,9 +47,9 @@ void RenderTarget::begin() {
   glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
 }
 
-void RenderTarget::read(int width, int height, unsigned char* rgba) {
-  const int fine_width = width * kSupersampling;
-  const int fine_height = height * kSupersampling;
+void RenderTarget::finish(int width, int height) {
+  const int fine_width = width * sampling_.fineness;
+  const int fine_height = height * sampling_.fineness;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolving_.id());
   glBlitFramebuffer(0, 0, fine_width, fine_height, 0, 0, fine_width, fine_height, GL_COLOR_BUFFER_BIT,
@@ -64,11 +61,15 @@ void RenderTarget::read(int width, int height, unsigned char* rgba) {
   glDisable(GL_BLEND);
   finish_.use();
   finish_.set("picture", 0);
+  finish_.set("fineness", sampling_.fineness);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, resolved_.id());
   glBindVertexArray(no_vertices_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
 
+void RenderTarget::read(int width, int height, unsigned char* rgba) {
+  finish(width, height);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
 }

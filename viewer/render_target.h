@@ -8,19 +8,33 @@ namespace ramify {
 /// Samples a pixel, each way, in the target; beside these come the samples that OpenGL takes within each.
 inline constexpr int kSupersampling = 2;
 
+/// How finely a picture is drawn.
+struct Sampling {
+  int fineness = kSupersampling;  // pixels drawn for one of the picture, each way: 1 or 2
+  int samples = 4;                // within each of these, as far as OpenGL can; 1: no more than itself
+};
+
 /// A half-float framebuffer with several samples a pixel, and the means to reduce it to 8 bits.
 class RenderTarget {
  public:
   /// For pictures up to width x height. Throws GraphicsError if OpenGL cannot draw into such a target.
-  RenderTarget(int width, int height);
+  RenderTarget(int width, int height, Sampling sampling = {});
 
-  /// Makes the target what is drawn into. It has kSupersampling times the picture's pixels each way.
+  /// Makes the target what is drawn into. It has `fineness` times the picture's pixels each way.
   void begin();
 
-  /// Reads the lower left width x height pixels as sRGB with straight alpha, bottom row first, into `rgba`.
+  /// Reduces the lower left width x height pixels to sRGB with straight alpha. Leaves its own framebuffer
+  /// bound.
+  void finish(int width, int height);
+
+  /// finish(), then reads the pixels, bottom row first, into `rgba`.
   void read(int width, int height, unsigned char* rgba);
 
+  /// What finish() made, bottom row first.
+  const GlTexture& picture() const { return finished_; }
+
  private:
+  Sampling sampling_;
   GlRenderbuffer samples_;
   GlRenderbuffer depth_;
   GlFramebuffer sampled_;

@@ -91,6 +91,10 @@ bool shows_materials(const Mesh& mesh) {
 }
 
 std::vector<ColorBytes> vertex_colors(const Scene& scene, const RenderOptions& options) {
+  if (options.tint) {
+    const std::size_t count = scene.mesh == nullptr ? 0 : scene.mesh->vertex_count();
+    return std::vector<ColorBytes>(count, color_bytes(*options.tint));
+  }
   if (!options.color_by.empty()) {
     require_skeleton(scene, options.color_by);
     const std::vector<Color> of_node = attribute_colors(*scene.skeleton, options.color_by);
@@ -113,6 +117,7 @@ std::vector<ColorBytes> node_colors(const Scene& scene, const RenderOptions& opt
     throw InputError(
         "--style: skeleton: the input is a mesh without a skeleton (lit and schematic can draw it)");
   }
+  if (options.tint) return std::vector<ColorBytes>(scene.skeleton->node_count(), color_bytes(*options.tint));
   return bytes_of(attribute_colors(*scene.skeleton, options.color_by.empty() ? "order" : options.color_by));
 }
 

@@ -15,6 +15,7 @@ namespace ramify {
 
 struct Mesh;
 struct Skeleton;
+struct SkyLight;
 
 enum class RenderStyle {
   lit,        // sun, sky, shadow and ground
@@ -28,13 +29,16 @@ struct RenderOptions {
   ViewDirection view;
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
-  std::string color_by;     // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
-  bool with_scale = false;  // a bar with its length and a human figure beside the tree
+  std::string color_by;        // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
+  std::optional<Color> tint;   // all of the tree in this one, whatever color_by says
+  bool with_scale = false;     // a bar with its length and a human figure beside the tree
+  bool with_occlusion = true;  // lit: the sky's light and the sun's are kept out; without, drawn sooner
 };
 
 struct Scene {
   const Mesh* mesh = nullptr;          // null is drawn as an empty one
   const Skeleton* skeleton = nullptr;  // null for a mesh read from a file
+  const SkyLight* sky = nullptr;       // of the mesh, where it was made before; null: made when it is needed
 };
 
 /// Where the tree stands: the lowest root node or, without a skeleton, the middle of the mesh's underside;

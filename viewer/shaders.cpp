@@ -74,7 +74,8 @@ void main() { color = mix(bottom, top, smoothstep(0.25, 1.0, mix(part.x, part.y,
 
 std::string finish_fragment() {
   return R"(
-uniform sampler2D picture;  // twice as wide and high as what is written
+uniform sampler2D picture;  // `fineness` times as wide and high as what is written
+uniform int fineness;
 out vec4 color;
 
 vec3 encoded(vec3 light) {
@@ -96,10 +97,10 @@ float threshold(ivec2 at) {
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec4 sum = vec4(0.0);
-  for (int y = 0; y < 2; ++y) {
-    for (int x = 0; x < 2; ++x) sum += texelFetch(picture, 2 * at + ivec2(x, y), 0);
+  for (int y = 0; y < fineness; ++y) {
+    for (int x = 0; x < fineness; ++x) sum += texelFetch(picture, fineness * at + ivec2(x, y), 0);
   }
-  sum /= 4.0;
+  sum /= float(fineness * fineness);
   vec3 straight = sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0);
   // Less than half a step either way: a plain colour stays exactly what it was.
   float dither = 0.8 * (threshold(at) - 0.5) / 255.0;

@@ -12,6 +12,7 @@
 #include "common/config/inheritance.h"
 #include "common/config/presets.h"
 #include "common/config/toml_writer.h"
+#include "common/format/embedded_config.h"
 
 namespace ramify {
 namespace {
@@ -34,6 +35,8 @@ Source find_source(const std::string& config, const fs::path& folder, const std:
   std::error_code error;
   if (fs::exists(path, error)) {
     const std::string name = folder.empty() ? config : path.string();
+    // The paths in an embedded config are those of the run that made the file: from its working folder.
+    if (may_embed_config(path)) return {name, {}, embedded_config(path)};
     return {name, path.parent_path(), read_file(path)};
   }
 
@@ -151,6 +154,16 @@ Job default_job(const AnyEngine& engine) {
   job.engine = &engine;
   job.parameters = engine.make_parameters();
   return job;
+}
+
+Job independent_copy(const Job& job) {
+  Job copy = job;
+  if (job.engine) copy.parameters = job.engine->copy_parameters(job.parameters.get());
+  return copy;
+}
+
+void check(Job& job) {
+  job.warnings = checked(job, {});
 }
 
 Job load_job(const EngineRegistry& registry, const std::string& config, std::span<const Override> overrides) {

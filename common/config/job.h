@@ -35,13 +35,20 @@ struct Override {
   std::string value;
 };
 
-/// Reads `config`, a preset's name or a file, with what it is based on, then the overrides; checks all of it.
-/// Throws ConfigError, or InputError where there is no such preset or file.
+/// Reads `config`, a preset's name, a TOML file or one that ramify made of a config (.glb, .gltf, .skel.ply),
+/// with what it is based on, then the overrides; checks all of it. Throws ConfigError, or InputError where
+/// there is no such preset or file.
 Job load_job(const EngineRegistry& registry, const std::string& config,
              std::span<const Override> overrides = {});
 
 /// A job of `engine` with all parameters at their defaults.
 Job default_job(const AnyEngine& engine);
+
+/// A job with parameters of its own: the copy of a Job shares them.
+Job independent_copy(const Job& job);
+
+/// Checks a job whose parameters were changed and sets its warnings. Throws ConfigError.
+void check(Job& job);
 
 /// The table of a whole config of `engine`; its owner is a Job of that engine. `engine` must outlive it.
 Table job_table(const AnyEngine& engine);

@@ -121,6 +121,16 @@ Skeleton cut_at_step(const Skeleton& history, std::uint32_t step, bool with_shed
   return with_shed ? past : living(past);
 }
 
+Skeleton cut_at_level(const Skeleton& skeleton, std::uint32_t level) {
+  std::vector<bool> is_planned(skeleton.node_count());
+  for (std::size_t node = 0; node < is_planned.size(); ++node) {
+    // What grows from a later level goes with it.
+    is_planned[node] =
+        skeleton.is_root(node) || (skeleton.level[node] <= level && is_planned[skeleton.parent[node]]);
+  }
+  return subset(skeleton, is_planned);
+}
+
 Skeleton living(const Skeleton& history) {
   if (history.shed_step.empty()) return history;
   std::vector<bool> is_alive(history.node_count());

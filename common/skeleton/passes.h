@@ -38,6 +38,10 @@ void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model,
 /// that had been shed by then. Needs birth_step.
 Skeleton cut_at_step(const Skeleton& history, std::uint32_t step, bool with_shed = false);
 
+/// What a path-planned tree has of the levels up to `level`, with the widths of the whole tree. Needs
+/// Skeleton::level.
+Skeleton cut_at_level(const Skeleton& skeleton, std::uint32_t level);
+
 /// The living part of a history, light and vigour kept.
 Skeleton living(const Skeleton& history);
 

@@ -1,0 +1,145 @@
+#include "viewer/pane.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+
+#include "common/mesh/attribute_colors.h"
+
+namespace ramify {
+namespace {
+
+// Seconds that a picture may take while something moves; slower ones are drawn with half the pixels each way.
+constexpr double kSlow = 0.05;
+constexpr double kQuick = 0.012;
+
+constexpr int kShadowMapSize = 2048;
+
+// A picture at rest has this many samples a pixel.
+constexpr Sampling kAtRest{.fineness = 1, .samples = 4};
+constexpr Sampling kMoving{.fineness = 1, .samples = 1};
+
+/// The sun stays where it is while the viewer walks around.
+CameraAxes sun() {
+  return sun_behind({});
+}
+
+Scene scene_of(const Product& product) {
+  const bool has_skeleton = product.skeleton.node_count() > 0;
+  return {.mesh = &product.mesh,
+          .skeleton = has_skeleton ? &product.skeleton : nullptr,
+          .sky = product.sky.visibility.empty() ? nullptr : &product.sky};
+}
+
+}  // namespace
+
+void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show) {
+  const Scene scene = scene_of(*exhibit.product);
+  RenderOptions options;
+  options.style = show.style;
+  options.tint = exhibit.tint;
+  options.with_occlusion = !exhibit.product->is_draft;
+  if (scene.skeleton == nullptr && show.style == RenderStyle::skeleton) {
+    options.style = RenderStyle::lit;
+    notice_ = "a mesh without a skeleton has no lines to show";
+  }
+  if (!show.color_by.empty()) {
+    std::vector<std::string> known;
+    if (scene.skeleton != nullptr) known = color_attributes(*scene.skeleton);
+    if (std::find(known.begin(), known.end(), show.color_by) != known.end()) {
+      options.color_by = show.color_by;
+    } else {
+      notice_ = fmt::format("this tree has no attribute '{}'", show.color_by);
+    }
+  }
+  loaded.painter.load(scene, options);
+  if (options.style == RenderStyle::lit) {
+    loaded.painter.cast_shadows(scene, sun(), options.with_occlusion ? kShadowMapSize : 64);
+  }
+  loaded.serial = exhibit.product->serial;
+  loaded.show = show;
+  loaded.tint = exhibit.tint;
+}
+
+unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
+                       int width, int height, bool is_fast) {
+  is_stale_ = is_stale_ || loaded_.size() != exhibits.size() || orbit_ != orbit || is_fast_ != is_fast;
+  loaded_.resize(exhibits.size());
+  Box box;
+  for (std::size_t index = 0; index < exhibits.size(); ++index) {
+    const Exhibit& exhibit = exhibits[index];
+    box.include(exhibit.product->box);
+    std::unique_ptr<Loaded>& loaded = loaded_[index];
+    if (!loaded) loaded = std::make_unique<Loaded>();
+    if (loaded->serial == exhibit.product->serial && loaded->show == show && loaded->tint == exhibit.tint) {
+      continue;
+    }
+    notice_.clear();
+    load(*loaded, exhibit, show);
+    is_stale_ = true;
+  }
+  box_ = box;
+  const int shrink = is_fast ? shrink_ : 1;
+  width = std::max(1, width / shrink);
+  height = std::max(1, height / shrink);
+  if (!target_ || width_ != width || height_ != height || is_fast_ != is_fast) {
+    target_.reset();
+    target_ = std::make_unique<RenderTarget>(width, height, is_fast ? kMoving : kAtRest);
+    width_ = width;
+    height_ = height;
+    is_stale_ = true;
+  }
+  is_fast_ = is_fast;
+  orbit_ = orbit;
+  if (is_stale_) draw(orbit);
+  is_stale_ = false;
+  return target_->picture().id();
+}
+
+Image Pane::image() const {
+  Image image{width_, height_, {}};
+  if (!target_) return image;
+  const std::size_t row = 4 * static_cast<std::size_t>(width_);
+  std::vector<std::uint8_t> rows(row * height_);
+  target_->read(width_, height_, rows.data());
+  for (int y = height_ - 1; y >= 0; --y) {
+    image.rgba.insert(image.rgba.end(), rows.begin() + row * y, rows.begin() + row * (y + 1));
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  return image;
+}
+
+void Pane::draw(const Orbit& orbit) {
+  const auto start = std::chrono::steady_clock::now();
+  const double aspect = static_cast<double>(width_) / height_;
+  double reach = 0.0;
+  for (const auto& loaded : loaded_) reach = std::max(reach, loaded->painter.ground_reach());
+  const Camera camera = camera_of(orbit, aspect, box_, reach);
+  Viewport viewport;
+  viewport.width = width_;
+  viewport.height = height_;
+  target_->begin();
+  for (std::size_t index = 0; index < loaded_.size(); ++index) {
+    if (index == 0) {
+      loaded_[index]->painter.draw(camera, viewport);
+    } else {
+      loaded_[index]->painter.draw_over(camera, viewport);
+    }
+  }
+  target_->finish(width_, height_);
+  glBindTexture(GL_TEXTURE_2D, target_->picture().id());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (!is_fast_) return;
+
+  glFinish();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (seconds > kSlow) shrink_ = 2;
+  if (seconds < kQuick) shrink_ = 1;
+}
+
+}  // namespace ramify

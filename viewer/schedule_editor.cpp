@@ -1,0 +1,134 @@
+#include "viewer/schedule_editor.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ramify {
+namespace {
+
+using Points = std::vector<std::pair<double, double>>;
+
+constexpr float kHeight = 84.0f;
+constexpr float kReach = 9.0f;  // pixels from a point at which the mouse takes it
+
+/// Between the plane of the schedule and the window's pixels.
+struct Plot {
+  ImVec2 low;  // upper left corner
+  ImVec2 size;
+  double last;
+  SliderRange range;
+
+  ImVec2 place(const std::pair<double, double>& point) const {
+    const double height = (point.second - range.low) / (range.high - range.low);
+    return {low.x + size.x * static_cast<float>(point.first / last),
+            low.y + size.y * static_cast<float>(1.0 - height)};
+  }
+
+  /// Whole steps across, hundredths of the range up: values that look like somebody meant them.
+  std::pair<double, double> point(const ImVec2& at, bool is_whole) const {
+    double across = std::clamp(double(at.x - low.x) / size.x, 0.0, 1.0) * last;
+    across = is_whole ? std::round(across) : std::round(across * 100.0) / 100.0;
+    const double up = std::clamp(1.0 - double(at.y - low.y) / size.y, 0.0, 1.0);
+    const double step = std::pow(10.0, std::floor(std::log10(range.high - range.low)) - 2.0);
+    return {across, std::clamp(std::round((range.low + up * (range.high - range.low)) / step) * step,
+                               range.low, range.high)};
+  }
+};
+
+/// The point under the mouse, or -1.
+int point_at(const Plot& plot, const Points& points, const ImVec2& mouse) {
+  int nearest = -1;
+  float least = kReach;
+  for (std::size_t index = 0; index < points.size(); ++index) {
+    const ImVec2 at = plot.place(points[index]);
+    const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);
+    if (distance < least) {
+      least = distance;
+      nearest = static_cast<int>(index);
+    }
+  }
+  return nearest;
+}
+
+void draw_curve(const Plot& plot, const Schedule& schedule, int marked) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 high(plot.low.x + plot.size.x, plot.low.y + plot.size.y);
+  list.AddRectFilled(plot.low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0f);
+  list.PushClipRect(plot.low, high, true);
+  const ImU32 line = ImGui::GetColorU32(ImGuiCol_PlotLines);
+  constexpr int kPieces = 64;
+  std::vector<ImVec2> curve;
+  for (int piece = 0; piece <= kPieces; ++piece) {
+    const double across = plot.last * piece / kPieces;
+    curve.push_back(plot.place({across, schedule.at(across)}));
+  }
+  list.AddPolyline(curve.data(), static_cast<int>(curve.size()), line, 0, 1.5f);
+  for (std::size_t index = 0; index < schedule.points().size(); ++index) {
+    const float radius = static_cast<int>(index) == marked ? 5.0f : 3.5f;
+    list.AddCircleFilled(plot.place(schedule.points()[index]), radius, line);
+  }
+  list.PopClipRect();
+}
+
+/// Moves a point, between its neighbours.
+void move_point(Points& points, std::size_t index, std::pair<double, double> to, double gap) {
+  if (index > 0) to.first = std::max(to.first, points[index - 1].first + gap);
+  if (index + 1 < points.size()) to.first = std::min(to.first, points[index + 1].first - gap);
+  points[index] = to;
+}
+
+void add_point(Points& points, const std::pair<double, double>& point) {
+  const auto after = std::find_if(points.begin(), points.end(),
+                                  [&](const auto& other) { return other.first >= point.first; });
+  if (after != points.end() && after->first == point.first) {
+    after->second = point.second;
+  } else {
+    points.insert(after, point);
+  }
+}
+
+}  // namespace
+
+WidgetOutcome schedule_curve(const char* id, Schedule& schedule, double last, const SliderRange& range) {
+  Points points = schedule.points();
+  last = std::max({last, points.back().first, 1e-3});
+  const bool is_whole = last > 3.0;  // steps rather than parts of a way
+  const Plot plot{ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, kHeight}, last, range};
+  ImGui::InvisibleButton(id, plot.size);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  // Which point is dragged is kept by ImGui under this widget's name.
+  int& dragged = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("dragged"), -1);
+  WidgetOutcome outcome;
+  const int under = ImGui::IsItemHovered() ? point_at(plot, points, mouse) : -1;
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && under < 0) {
+    add_point(points, plot.point(mouse, is_whole));
+    outcome = {true, true};
+  } else if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(1) && under >= 0 && points.size() > 1) {
+    points.erase(points.begin() + under);
+    outcome = {true, true};
+  } else if (ImGui::IsItemActivated()) {
+    dragged = under;
+  } else if (ImGui::IsItemActive() && dragged >= 0 && dragged < static_cast<int>(points.size()) &&
+             ImGui::IsMouseDragging(0, 1.0f)) {
+    move_point(points, static_cast<std::size_t>(dragged), plot.point(mouse, is_whole), is_whole ? 1.0 : 0.01);
+    outcome.is_changed = points != schedule.points();
+  }
+  if (ImGui::IsItemDeactivated()) {
+    outcome.is_finished = dragged >= 0;
+    dragged = -1;
+  }
+  if (outcome.is_changed) schedule = Schedule(points);
+  const int marked = dragged >= 0 ? dragged : under;
+  draw_curve(plot, schedule, marked);
+  if (marked >= 0 && marked < static_cast<int>(schedule.points().size())) {
+    const auto& [step, value] = schedule.points()[static_cast<std::size_t>(marked)];
+    ImGui::SetTooltip("%.4g: %.4g", step, value);
+  } else if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("Drag a point; double click adds one, right click takes one away");
+  }
+  return outcome;
+}
+
+}  // namespace ramify

@@ -1,0 +1,23 @@
+// What of the trees is shown, and how: the same for all panes.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "viewer/scene.h"
+
+namespace ramify {
+
+enum class Arrangement { side_by_side, overlaid };
+
+struct ShowOptions {
+  RenderStyle style = RenderStyle::lit;
+  std::string color_by;          // as in RenderOptions
+  bool with_scale = false;       // as in RenderOptions
+  std::set<std::string> layers;  // by name, over the tree
+  Arrangement arrangement = Arrangement::side_by_side;
+
+  bool operator==(const ShowOptions&) const = default;
+};
+
+}  // namespace ramify

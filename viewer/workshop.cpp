@@ -1,0 +1,170 @@
+#include "viewer/workshop.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <new>
+
+#include "common/skeleton/passes.h"
+#include "viewer/scene.h"
+
+namespace ramify {
+namespace {
+
+// Runs shorter than this follow a slider, seconds.
+constexpr double kLiveSeconds = 0.3;
+
+constexpr double kNotifyEvery = 0.1;  // seconds
+
+// Sides of a draft's tubes: round enough to tell thick from thin.
+constexpr int kDraftSides = 3;
+constexpr int kDraftSidesOfTrunk = 8;
+
+double now_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+MesherOptions mesher_of(const Order& order) {
+  MesherOptions options = order.job ? order.job->mesher : MesherOptions();
+  if (order.is_draft) {
+    options = MesherOptions();
+    options.sides_min = kDraftSides;
+    options.sides_max = kDraftSidesOfTrunk;
+  }
+  return options;
+}
+
+/// After the step that `at` names, or up to the level where the tree has levels; the whole tree where it has
+/// neither.
+Skeleton shown_part(const Skeleton& whole, std::optional<std::uint32_t> at) {
+  if (!at) return living(whole);
+  if (!whole.birth_step.empty()) return cut_at_step(whole, *at);
+  if (!whole.level.empty()) return cut_at_level(whole, *at);
+  return living(whole);
+}
+
+std::uint32_t last_step(const Skeleton& tree) {
+  std::uint32_t last = 0;
+  for (const std::uint32_t step : tree.birth_step) last = std::max(last, step);
+  for (const std::uint16_t level : tree.level) last = std::max<std::uint32_t>(last, level);
+  return last;
+}
+
+}  // namespace
+
+std::uint64_t new_serial() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+void dress(Product& product, const Order& order) {
+  const double start = now_seconds();
+  product.last_step = last_step(product.run->skeleton);
+  product.skeleton = shown_part(product.run->skeleton, order.at);
+  product.mesh = build_mesh(product.skeleton, mesher_of(order));
+  for (const Vec3& position : product.skeleton.position) product.box.include(position);
+  for (const Vec3f& position : product.mesh.positions) product.box.include(Vec3(position));
+  if (!order.is_draft) {
+    product.sky = sky_light(product.mesh, base_of({.mesh = &product.mesh, .skeleton = &product.skeleton}).y);
+  }
+  product.mesh_seconds = now_seconds() - start;
+}
+
+Workshop::Workshop(std::function<void()> notify)
+    : notify_(std::move(notify)), thread_([this](const std::stop_token& ending) { work(ending); }) {}
+
+Workshop::~Workshop() {
+  thread_.request_stop();
+  const std::lock_guard lock(mutex_);
+  running_.request_stop();
+}
+
+void Workshop::order(Order order) {
+  const std::lock_guard lock(mutex_);
+  const bool is_short = last_run_seconds_ < kLiveSeconds && now_seconds() - running_since_ < kLiveSeconds;
+  if (running_since_ > 0.0 && !is_short) running_.request_stop();
+  next_ = std::move(order);
+  state_.is_busy = true;
+  wake_.notify_one();
+}
+
+std::unique_ptr<Product> Workshop::take() {
+  const std::lock_guard lock(mutex_);
+  return std::move(done_);
+}
+
+WorkState Workshop::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+void Workshop::work(const std::stop_token& ending) {
+  while (true) {
+    Order order;
+    std::stop_token stop;
+    {
+      std::unique_lock lock(mutex_);
+      if (!wake_.wait(lock, ending, [this] { return next_.has_value(); })) return;
+      order = std::move(*next_);
+      next_.reset();
+      running_ = std::stop_source();
+      stop = running_.get_token();
+      if (ending.stop_requested()) return;
+      running_since_ = now_seconds();
+      state_ = {.is_busy = true, .stage = {}, .part = 0.0};
+    }
+    std::unique_ptr<Product> product = make(order, stop);
+    {
+      const std::lock_guard lock(mutex_);
+      running_since_ = 0.0;
+      if (product && product->run_seconds > 0.0) last_run_seconds_ = product->run_seconds;
+      if (product) done_ = std::move(product);
+      state_.is_busy = next_.has_value();
+    }
+    notify_();
+  }
+}
+
+/// Null if it was stopped.
+std::unique_ptr<Product> Workshop::make(const Order& order, const std::stop_token& stop) {
+  auto product = std::make_unique<Product>();
+  product->number = order.number;
+  product->job = order.job;
+  product->is_draft = order.is_draft;
+  product->run = order.run;
+  try {
+    if (!product->run) {
+      const double start = now_seconds();
+      RunContext context;
+      context.stop = stop;
+      context.progress = [this](const Progress& now) { set_progress(now); };
+      context.layers = order.layers;
+      context.wants_history = true;
+      product->run = std::make_shared<const RunResult>(order.job->run(context));
+      product->run_seconds = now_seconds() - start;
+      if (stop.stop_requested()) return nullptr;
+    }
+    dress(*product, order);
+  } catch (const std::bad_alloc&) {
+    product->error = "out of memory";
+  } catch (const std::exception& error) {
+    product->error = error.what();
+  }
+  if (stop.stop_requested()) return nullptr;
+  return product;
+}
+
+void Workshop::set_progress(const Progress& now) {
+  {
+    const std::lock_guard lock(mutex_);
+    state_.stage = std::string(now.stage);
+    state_.part = now.total > 0.0 ? std::clamp(now.done / now.total, 0.0, 1.0) : 0.0;
+    // It looked short when the next order came, but is not.
+    if (next_ && now_seconds() - running_since_ > kLiveSeconds) running_.request_stop();
+    if (now_seconds() - last_notified_ < kNotifyEvery) return;
+    last_notified_ = now_seconds();
+  }
+  notify_();
+}
+
+}  // namespace ramify
