@@ -189,7 +189,8 @@ TEST_CASE("stats: what is wrong is one line") {
   const std::string where = folder.path().string();
   REQUIRE(run_program("generate s4-fig6 -o a.csv -o a.glb", where).code == 0);
   check_failure("stats a.glb", where,
-                "a.glb: a mesh has no skeleton (a config, a preset or a file ending in .csv, .txt)");
+                "a.glb: a mesh has no skeleton (a config, a preset or a file ending in .csv, .txt, "
+                ".skel.ply, .swc, .mtg)");
   check_failure("stats s4-fig6 --csv --json", where, "--csv: not together with --json (one of them)");
   check_failure("stats s4-fig66", where, "s4-fig66: no such file or preset (did you mean 's4-fig6'?)");
   check_failure("stats s4-fig6 none.csv", where, "none.csv: cannot read: No such file or directory");

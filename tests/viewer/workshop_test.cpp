@@ -65,7 +65,7 @@ std::shared_ptr<const Job> job_of(int steps) {
 }  // namespace
 
 TEST_CASE(
-    "workshop: an order comes back as tree, mesh and sky light; a draft has fewer triangles and no sky") {
+    "workshop: an order comes back as tree, mesh and sky light, a draft with fewer triangles and no sky") {
   Workshop workshop([] {});
   workshop.order({.number = 1, .job = job_of<growth::Engine>(8)});
   const auto fine = awaited(workshop);
