@@ -3,11 +3,15 @@
 
 #include <cstdint>
 
+#include "common/mesh/mesh.h"
 #include "common/skeleton/skeleton.h"
 
 namespace ramify::bench {
 
 /// Of positions, parents and diameters, to the last bit.
 std::uint64_t fingerprint(const Skeleton& skeleton);
+
+/// Of all that its vertices and triangles have, to the last bit.
+std::uint64_t fingerprint(const Mesh& mesh);
 
 }  // namespace ramify::bench

@@ -22,6 +22,7 @@ struct Session {
 void add_generate(CLI::App& program, const Session& session);
 void add_render(CLI::App& program, const Session& session);
 void add_stats(CLI::App& program, const Session& session);
+void add_compare(CLI::App& program, const Session& session);
 void add_convert(CLI::App& program);
 void add_presets(CLI::App& program);
 void add_params(CLI::App& program, const Session& session);

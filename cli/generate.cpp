@@ -28,6 +28,7 @@ struct GenerateFlags {
   std::vector<std::string> outputs;
   std::string graph;
   std::string shadow;
+  std::string lod;
   int at_step = -1;
   bool with_history = false;
   ConfigFlags configuring;
@@ -153,7 +154,9 @@ void set_steps(Job& job, int steps) {
 }
 
 void generate(const GenerateFlags& flags, const Session& session) {
-  Job job = load_job(session.registry, flags.config, flags.configuring.overrides());
+  std::vector<Override> overrides = flags.configuring.overrides();
+  if (!flags.lod.empty()) overrides.push_back({"--lod", "mesher.lod", flags.lod});
+  Job job = load_job(session.registry, flags.config, overrides);
   if (flags.at_step > job.steps()) {
     throw InputError(
         fmt::format("--at-step: {} is after the last step (0 to {})", flags.at_step, job.steps()));
@@ -203,14 +206,14 @@ void add_generate(CLI::App& program, const Session& session) {
   command
       ->add_option(
           "-o,--output", flags->outputs,
-          "File to write, by its ending: .glb .gltf .obj .ply mesh, .csv .skel.ply .swc .mtg skeleton, .png "
-          "picture, .vdb shadow "
-          "(repeatable)")
+          "File to write, by its ending: .glb .gltf .obj .ply .stl mesh, .csv .skel.ply .swc .mtg skeleton, "
+          ".pov scene, .png picture, .vdb shadow (repeatable)")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->add_option("--at-step", flags->at_step, "The tree as it was after step K")
       ->type_name("K")
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--lod", flags->lod, "Level of detail of the mesh, 0 (all of it) to 3")->type_name("N");
   command->add_flag("--history", flags->with_history,
                     "Growth: shed internodes too go into the skeleton table");
   command->add_option("--graph", flags->graph, "Pathplan: write the graph's edges here, its nodes beside it")

@@ -16,12 +16,6 @@
 namespace ramify::cli {
 namespace {
 
-Skeleton cut(Skeleton skeleton, const InputFlags& flags, const std::string& input) {
-  if (!flags.at_step) return living(skeleton);
-  if (skeleton.birth_step.empty()) throw InputError(fmt::format("--at-step: {} has no steps", input));
-  return cut_at_step(skeleton, *flags.at_step);
-}
-
 /// Flags that change a config, given for a file that holds a finished tree.
 void refuse(const std::vector<Override>& overrides, const std::string& input) {
   if (overrides.empty()) return;
@@ -46,7 +40,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
     refuse(overrides, input);
     SkeletonFile file = read_skeleton(input, flags.skeleton);
     if (!flags.running.is_quiet) note(file.notes);
-    return {cut(std::move(file.skeleton), flags, input), {}, 0};
+    return {living_at(file.skeleton, flags.at_step, input), {}, 0};
   }
   if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
   const Job job = load_job(session.registry, input, overrides);
@@ -54,10 +48,16 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
   context.stop = session.stop;
   context.wants_history = flags.at_step.has_value();
   RunResult run = run_with_progress(job, context, flags.running);
-  return {cut(std::move(run.skeleton), flags, input), job.looks(), job.seed()};
+  return {living_at(run.skeleton, flags.at_step, input), job.looks(), job.seed()};
 }
 
 }  // namespace
+
+Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input) {
+  if (!step) return living(skeleton);
+  if (skeleton.birth_step.empty()) throw InputError(fmt::format("--at-step: {} has no steps", input));
+  return cut_at_step(skeleton, *step);
+}
 
 bool is_config(const std::string& input) {
   return !is_mesh(input) && !is_skeleton_file(input);

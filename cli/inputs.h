@@ -25,6 +25,9 @@ struct InputFlags {
   RunFlags running;
 };
 
+/// What is alive after `step`, or at the end. Throws InputError if a step is asked for and `input` has none.
+Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input);
+
 /// Whether the input is a preset's name or a config file: what no other ending tells of.
 bool is_config(const std::string& input);
 

@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   add_render(program, session);
   add_view(program, session);
   add_stats(program, session);
+  add_compare(program, session);
   add_convert(program);
   add_presets(program);
   add_params(program, session);

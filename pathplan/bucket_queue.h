@@ -39,6 +39,9 @@ class BucketQueue {
 
   bool is_empty() const { return size_ == 0; }
 
+  /// A node that will be taken soon, likely next, to be made ready for that; any at first.
+  std::uint32_t soon() const { return soon_; }
+
   void push(double cost, std::uint32_t node) {
     ++size_;
     const auto bucket = static_cast<std::size_t>(cost * buckets_per_cost_);
@@ -87,6 +90,7 @@ class BucketQueue {
     const Entry entry{slots_[slot].cost, slots_[slot].node};
     head = std::exchange(slots_[slot].next, free_);
     free_ = slot;
+    if (head != kNone) soon_ = slots_[head].node;
     return entry;
   }
 
@@ -104,6 +108,7 @@ class BucketQueue {
   std::size_t current_ = 0;     // the bucket that is being emptied
   std::vector<Entry> sorted_;   // exact: a heap of what it holds
   std::size_t size_ = 0;        // entries
+  std::uint32_t soon_ = 0;
 };
 
 }  // namespace ramify::pathplan

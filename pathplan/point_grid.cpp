@@ -41,21 +41,4 @@ PointGrid::PointGrid(std::span<const Vec3> points, double edge) {
   }
 }
 
-PointGrid::Cells PointGrid::around(std::size_t cell) const {
-  const auto row = static_cast<std::size_t>(count_.x);
-  const auto layer = row * static_cast<std::size_t>(count_.y);
-  const Coord middle(cell % row, cell % layer / row, cell / layer);
-  return {glm::max(middle - 1, Coord(0)), glm::min(middle + 1, count_ - 1)};
-}
-
-Box PointGrid::covered_by(const Cells& cells) const {
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
-  Box box{Vec3(-kEndless), Vec3(kEndless)};
-  for (int i = 0; i < 3; ++i) {
-    if (cells.low[i] > 0) box.low[i] = low_[i] + edge_ * cells.low[i];
-    if (cells.high[i] < count_[i] - 1) box.high[i] = low_[i] + edge_ * (cells.high[i] + 1);
-  }
-  return box;
-}
-
 }  // namespace ramify::pathplan

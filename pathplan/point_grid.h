@@ -33,13 +33,8 @@ class PointGrid {
     return run(first_[cell], first_[cell + 1]);
   }
 
-  /// The cells at most one cell away, in each direction and across, from a cell.
-  Cells around(std::size_t cell) const;
   /// All cells that a box touches; outside the grid, the nearest ones.
   Cells touching(const Box& box) const { return {cell_of(box.low), cell_of(box.high)}; }
-
-  /// What the cells cover, without end where the grid ends: all points outside it are in other cells.
-  Box covered_by(const Cells& cells) const;
 
   /// Calls visit(run) for runs of points' numbers that together are those in the cells, in their order.
   template <class Visit>
@@ -52,21 +47,32 @@ class PointGrid {
     }
   }
 
-  /// The same without the cells of another box.
+  /// Calls visit(first, count) for runs of places in order() that together hold the points of a cell, which
+  /// come first, and of those neighbours of it, across edges and corners too, that come later in the order.
   template <class Visit>
-  void for_each_run_outside(const Cells& other, const Cells& cells, const Visit& visit) const {
-    for (int z = cells.low.z; z <= cells.high.z; ++z) {
-      for (int y = cells.low.y; y <= cells.high.y; ++y) {
-        if (z < other.low.z || z > other.high.z || y < other.low.y || y > other.high.y) {
-          visit(row(cells.low.x, cells.high.x, y, z));
-          continue;
-        }
-        const int before = std::min(cells.high.x, other.low.x - 1);
-        const int after = std::max(cells.low.x, other.high.x + 1);
-        if (cells.low.x <= before) visit(row(cells.low.x, before, y, z));
-        if (after <= cells.high.x) visit(row(after, cells.high.x, y, z));
-      }
-    }
+  void for_each_run_ahead(std::size_t cell, const Visit& visit) const {
+    const auto row = static_cast<std::size_t>(count_.x);
+    const auto layer = row * static_cast<std::size_t>(count_.y);
+    const std::size_t x = cell % row;
+    const std::size_t y = cell % layer / row;
+    const std::size_t before = x > 0 ? 1 : 0;
+    const std::size_t after = x + 1 < row ? 1 : 0;
+    const auto visit_cells = [&](std::size_t from, std::size_t to) {
+      visit(first_[from], first_[to + 1] - first_[from]);
+    };
+    visit_cells(cell, cell + after);
+    const bool has_next_row = cell % layer + row < layer;
+    if (has_next_row) visit_cells(cell + row - before, cell + row + after);
+    const std::size_t above = cell + layer;
+    if (above >= cell_count()) return;
+    if (y > 0) visit_cells(above - row - before, above - row + after);
+    visit_cells(above - before, above + after);
+    if (has_next_row) visit_cells(above + row - before, above + row + after);
+  }
+
+  /// How many cells after a cell its last neighbour comes.
+  std::size_t cells_ahead() const {
+    return static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.y + 1) + 1;
   }
 
   /// All points' numbers in the order of the cells.

@@ -6,285 +6,220 @@
 #include <cassert>
 
 #include "common/base/parallel.h"
+#include "pathplan/near_nodes.h"
 #include "pathplan/point_grid.h"
+#include "pathplan/yao_sectors.h"
 
 namespace ramify::pathplan {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-// Cells a task: enough that starting one does not show.
+// Cells or nodes a task: enough that starting one does not show.
 constexpr std::size_t kGrain = 256;
 
-// So few nodes are looked at faster than sorted into cells.
-constexpr std::size_t kOneCellUpTo = 160;
+// If there is but one sector, nearly all nodes have another within this distance, in spacings.
+constexpr double kFirstReach = 1.3;
 
-/// `condition ? yes : no`, of which the compiler would make a branch.
-std::uint64_t picked(bool condition, std::uint64_t yes, std::uint64_t no) {
-  return no ^ ((yes ^ no) & (std::uint64_t{0} - std::uint64_t{condition}));
+// Rounding must not put nodes two cells apart that are within the first reach of each other.
+constexpr double kCellSlack = 1.0 + 1e-9;
+
+/// The nearest node of a sector so far: the upper half of the square of its distance, as whole numbers
+/// compare like the numbers that have the same bits, and its place.
+using Nearest = std::uint64_t;
+constexpr Nearest kNothing = ~Nearest{0};
+
+std::uint32_t place_of(Nearest nearest) {
+  return static_cast<std::uint32_t>(nearest);
 }
 
-// As wide as a coordinate: the compiler then works out two at a time.
-using Sector = std::uint64_t;
+Nearest nearest_at(double square, std::uint32_t place) {
+  // Rounded, so that what is equal but for rounding seldom differs, and less 1, so that 0 becomes the
+  // greatest.
+  constexpr std::uint64_t kHalf = std::uint64_t{1} << 31;
+  return ((std::bit_cast<std::uint64_t>(square) - kHalf) & ~std::uint64_t{kNone}) | place;
+}
 
-struct Octants {
-  static constexpr int kCount = 8;
-  static Sector of(const Vec3& d) {
-    return Sector{d.x < 0.0} + 2 * Sector{d.y < 0.0} + 4 * Sector{d.z < 0.0};
-  }
-  /// On which side of the node the sector lies along an axis: -1, 1, or 0 for both.
-  static int side(Sector sector, int axis) { return (sector >> axis & 1) != 0 ? -1 : 1; }
-};
+/// Orders squares of distances as they are; equal ones, to a part in 10^13, alike.
+std::uint64_t rank_of(double square) {
+  constexpr std::uint64_t kHalf = 1 << 7;
+  return (std::bit_cast<std::uint64_t>(square) + kHalf) / (2 * kHalf);
+}
 
-struct CubeFaces {
-  static constexpr int kCount = 6;
-  static Sector of(const Vec3& d) {
-    const Vec3 a = glm::abs(d);
-    const bool is_x = (a.x >= a.y) & (a.x >= a.z);
-    const bool is_y = a.y >= a.z;
-    const Sector along_x{d.x < 0.0};
-    const Sector along_y = 2 + Sector{d.y < 0.0};
-    const Sector along_z = 4 + Sector{d.z < 0.0};
-    return picked(is_x, along_x, picked(is_y, along_y, along_z));
-  }
-  static int side(Sector sector, int axis) {
-    return static_cast<Sector>(axis) != sector / 2 ? 0 : (sector % 2 != 0 ? -1 : 1);
-  }
-};
-
-/// The directions to a cube's faces, numbered as above, and to its corners, numbered as octants: that which
-/// is nearest by angle, a face's if two are.
-struct FacesAndCorners {
-  static constexpr int kCount = CubeFaces::kCount + Octants::kCount;
-  static Sector of(const Vec3& d) {
-    const Vec3 a = glm::abs(d);
-    const double most = std::max({a.x, a.y, a.z});
-    const double sum = a.x + a.y + a.z;
-    // The cosine to a face is most / |d|, to a corner sum / (sqrt(3) |d|).
-    const bool is_corner = sum * sum > 3.0 * most * most;
-    return picked(is_corner, CubeFaces::kCount + Octants::of(d), CubeFaces::of(d));
-  }
-  static int side(Sector sector, int axis) {
-    return sector < CubeFaces::kCount ? CubeFaces::side(sector, axis)
-                                      : Octants::side(sector - CubeFaces::kCount, axis);
-  }
-};
-
-/// The best node found for a sector so far.
-struct Nearest {
-  double square;  // of its distance, or of the greatest allowed one
-  std::uint32_t node = kNone;
-
-  bool is_beaten_by(double other_square, std::uint32_t other) const {
-    return other_square < square || (other_square == square && other < node);
-  }
-};
-
-/// Sorts numbers that are all different.
-class Sorter {
- public:
-  /// All numbers are less than `bound`.
-  explicit Sorter(std::size_t bound) : words_(bound / 64 + 1) {}
-
-  void sort(std::vector<std::uint32_t>& ids) {
-    if (std::is_sorted(ids.begin(), ids.end())) return;
-    if (words_ > kWordsPerNumber * ids.size()) return std::sort(ids.begin(), ids.end());
-    marks_.resize(words_, 0);
-    for (const std::uint32_t id : ids) marks_[id / 64] |= std::uint64_t{1} << id % 64;
-    ids.clear();
-    for (std::size_t i = 0; i < marks_.size(); ++i) {
-      for (; marks_[i] != 0; marks_[i] &= marks_[i] - 1) {
-        ids.push_back(static_cast<std::uint32_t>(64 * i) +
-                      static_cast<std::uint32_t>(std::countr_zero(marks_[i])));
-      }
-    }
-  }
-
- private:
-  // Words looked through for each number: comparing numbers takes longer.
-  static constexpr std::size_t kWordsPerNumber = 8;
-
-  std::size_t words_;
-  std::vector<std::uint64_t> marks_;  // a bit a number
-};
-
-/// The nodes of a cell and of those around it, by rising number, and how they lie to one node.
-struct Block {
-  explicit Block(std::size_t nodes) : sorter(nodes) {}
-
-  Sorter sorter;
-  PointGrid::Cells cells;
-  Box seen;  // all nodes in it are in the block
-  std::vector<std::uint32_t> ids;
-  std::vector<double> x, y, z;
-  std::vector<std::uint64_t> keys;  // see Search::nearest_in()
-  std::vector<Sector> sectors;
-
-  void gather(const PointGrid& grid, std::size_t cell, std::span<const Vec3> nodes) {
-    cells = grid.around(cell);
-    seen = grid.covered_by(cells);
-    ids.clear();
-    grid.for_each_run(
-        cells, [&](std::span<const std::uint32_t> run) { ids.insert(ids.end(), run.begin(), run.end()); });
-    // Many nodes are numbered in the order of cells, all but the root, and sorted already; few are not.
-    sorter.sort(ids);
-    for (std::vector<double>* axis : {&x, &y, &z}) axis->resize(ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const Vec3& node = nodes[ids[i]];
-      x[i] = node.x;
-      y[i] = node.y;
-      z[i] = node.z;
-    }
-    keys.resize(ids.size());
-    sectors.resize(ids.size());
-  }
-
-  Vec3 way_to(std::size_t i, const Vec3& from) const { return {x[i] - from.x, y[i] - from.y, z[i] - from.z}; }
-};
-
-/// The nearest allowed node in each sector, for any node.
+/// The nearest allowed node in each sector, for all nodes.
 template <class Sectors>
 class Search {
  public:
   using Targets = std::array<std::uint32_t, Sectors::kCount>;  // kNone in an empty sector
 
   Search(std::span<const Vec3> nodes, const EdgeRules& rules, double spacing)
-      : nodes_(nodes), rules_(rules), grid_(nodes, cell_edge(nodes.size(), spacing)) {}
+      : nodes_(nodes),
+        rules_(rules),
+        first_reach_(std::min(first_reach(spacing), rules.max_length())),
+        grid_(nodes, first_reach_ * kCellSlack),
+        rounded_(nodes, grid_) {}
 
-  std::size_t cell_count() const { return grid_.cell_count(); }
-
-  /// Sets targets[node] for all nodes in a range of cells.
-  void run(std::size_t cell_begin, std::size_t cell_end, std::span<Targets> targets) const {
-    Block block(nodes_.size());
-    for (std::size_t cell = cell_begin; cell < cell_end; ++cell) {
-      const std::span<const std::uint32_t> own = grid_.ids_in(cell);
-      if (own.empty()) continue;
-      block.gather(grid_, cell, nodes_);
-      for (const std::uint32_t node : own) targets[node] = targets_of(node, block);
-    }
+  std::vector<Targets> run(const std::stop_token& stop) {
+    compare_pairs(stop);
+    std::vector<Targets> targets(nodes_.size());
+    parallel_for(nodes_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      NearNodes near(rounded_);
+      for (auto place = static_cast<std::uint32_t>(begin); place < end; ++place) {
+        targets[grid_.order()[place]] = stop.stop_requested() ? no_targets() : targets_of(place, near);
+      }
+    });
+    return targets;
   }
 
  private:
-  static double cell_edge(std::size_t nodes, double spacing) {
-    return nodes <= kOneCellUpTo ? std::numeric_limits<double>::infinity() : kCellSpacings * spacing;
+  using Sides = std::array<Nearest, Sectors::kCount>;
+
+  static double first_reach(double spacing) {
+    // All sectors are as large, and share the volume.
+    return kFirstReach * std::cbrt(double{Sectors::kCount}) * spacing;
   }
 
-  /// All sectors at once in the block; then each on its own that may have a nearer node farther out, or
-  /// whose node is not allowed.
-  Targets targets_of(std::uint32_t node, Block& block) const {
-    std::array<Nearest, Sectors::kCount> nearest = nearest_in(block, nodes_[node]);
+  static Targets no_targets() {
+    Targets targets;
+    targets.fill(kNone);
+    return targets;
+  }
+
+  /// Finds what is nearest among all that is within the first reach, whatever the rules allow.
+  void compare_pairs(const std::stop_token& stop) {
+    Sides nothing;
+    nothing.fill(kNothing);
+    nearest_.assign(nodes_.size(), nothing);
+    // Pairs reach into the next slab at most, so that every other one can be worked on at once.
+    const std::size_t slab = std::max(kGrain, grid_.cells_ahead());
+    const std::size_t slabs = (grid_.cell_count() + slab - 1) / slab;
+    for (const std::size_t first : {0, 1}) {
+      parallel_for((slabs + 1 - first) / 2, 1, [&](std::size_t begin, std::size_t end) {
+        NearNodes near(rounded_);
+        for (std::size_t i = begin; i < end && !stop.stop_requested(); ++i) {
+          const std::size_t cell_begin = (2 * i + first) * slab;
+          const std::size_t cell_end = std::min(cell_begin + slab, grid_.cell_count());
+          for (std::size_t cell = cell_begin; cell < cell_end; ++cell) compare_from(cell, near);
+        }
+      });
+    }
+  }
+
+  void compare_from(std::size_t cell, NearNodes& near) {
+    const std::size_t count = grid_.ids_in(cell).size();
+    if (count == 0) return;
+    const auto first = static_cast<std::uint32_t>(grid_.ids_in(cell).data() - grid_.order().data());
+    near.gather_ahead(cell);
+    const double limit = first_reach_ * first_reach_;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t place = first + i;
+      const Vec3 position = position_of(place);
+      Sides& sides = nearest_[place];
+      for (const std::uint32_t other : near.ahead_of(i, first_reach_)) {
+        const Vec3 d = position_of(other) - position;
+        const double square = glm::dot(d, d);
+        if (square > limit) continue;
+        offer(sides[Sectors::of(d)], square, place, other);
+        offer(nearest_[other][Sectors::of(-d)], square, other, place);
+      }
+    }
+  }
+
+  const Vec3& position_of(std::uint32_t place) const { return nodes_[grid_.order()[place]]; }
+
+  /// `other`, at a distance from the node at `place`, for its nearest.
+  void offer(Nearest& nearest, double square, std::uint32_t place, std::uint32_t other) {
+    const Nearest offered = nearest_at(square, other);
+    if ((offered ^ nearest) >> 32 == 0) [[unlikely]] {
+      if (is_before(square, other, place, place_of(nearest))) nearest = offered;
+      return;
+    }
+    // Which of two is nearer cannot be foreseen, so this is no branch.
+    nearest = std::min(nearest, offered);
+  }
+
+  /// Whether `other` comes before the nearest one so far, if there is one, when looked at closely.
+  bool is_before(double square, std::uint32_t other, std::uint32_t place, std::uint32_t nearest) const {
+    if (nearest == kNone) return false;
+    const Vec3 d = position_of(nearest) - position_of(place);
+    const std::uint64_t rank = rank_of(square);
+    const std::uint64_t nearest_rank = rank_of(glm::dot(d, d));
+    return rank < nearest_rank || (rank == nearest_rank && grid_.order()[other] < grid_.order()[nearest]);
+  }
+
+  /// What the pairs have shown; where that is nothing, or not allowed, a sector is looked at on its own.
+  Targets targets_of(std::uint32_t place, NearNodes& near) const {
+    const std::uint32_t node = grid_.order()[place];
+    const bool is_all = first_reach_ == rules_.max_length();
     Targets targets;
     for (Sector sector = 0; sector < Sectors::kCount; ++sector) {
-      Nearest& best = nearest[sector];
-      if (best.node != kNone && !rules_.allows(node, best.node)) {
-        best = none();
-        look_farther(node, sector, {}, best);
-      } else {
-        const double reach = seen_reach(block.seen, nodes_[node], sector);
-        if (best.square >= reach * reach) look_farther(node, sector, block.cells, best);
-      }
-      targets[sector] = best.node;
+      const std::uint32_t nearest = place_of(nearest_[place][sector]);
+      targets[sector] = nearest == kNone ? kNone : grid_.order()[nearest];
+      if (nearest == kNone ? is_all : rules_.allows(node, targets[sector])) continue;
+      targets[sector] = nearest_in(sector, place, near);
     }
     return targets;
   }
 
-  Nearest none() const { return {.square = rules_.max_length() * rules_.max_length()}; }
-
-  /// The nearest node in each sector around `position`, one just there left out, whatever the rules allow.
-  std::array<Nearest, Sectors::kCount> nearest_in(Block& block, const Vec3& position) const {
-    // Squares of distances compare as the whole numbers with the same bits do. Less 1, so that 0, which the
-    // node itself has, becomes the greatest. The last bits, some part in 10^12, make room for the place in
-    // the block: numbers rise, so that the lower of equals is the lesser.
-    const std::size_t count = block.ids.size();
-    const std::uint64_t place_bits = std::bit_ceil(count + 1) - 1;
-    std::uint64_t* const keys = block.keys.data();
-    Sector* const sectors = block.sectors.data();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 d = block.way_to(i, position);
-      keys[i] = ((std::bit_cast<std::uint64_t>(glm::dot(d, d)) - 1) & ~place_bits) | i;
-      sectors[i] = Sectors::of(d);
+  /// The nearest allowed node of a sector, kNone if there is none.
+  std::uint32_t nearest_in(Sector sector, std::uint32_t place, NearNodes& near) const {
+    const double farthest = std::min(rules_.max_length(), rounded_.longest());
+    for (double reach = 2.0 * first_reach_;; reach *= 2.0) {
+      const std::uint32_t nearest = nearest_within(std::min(reach, farthest), sector, place, near);
+      if (nearest != kNone || reach >= farthest) return nearest;
     }
-
-    // Which of two is nearer cannot be foreseen, so this loop has no branch.
-    const std::uint64_t farthest = std::bit_cast<std::uint64_t>(none().square) | place_bits;
-    std::array<std::uint64_t, Sectors::kCount> least;
-    least.fill(farthest);
-    for (std::size_t i = 0; i < count; ++i) {
-      std::uint64_t& best = least[sectors[i]];
-      best = picked(keys[i] < best, keys[i], best);
-    }
-
-    std::array<Nearest, Sectors::kCount> nearest;
-    nearest.fill(none());
-    for (int sector = 0; sector < Sectors::kCount; ++sector) {
-      if (least[sector] == farthest) continue;
-      const std::size_t place = least[sector] & place_bits;
-      const Vec3 d = block.way_to(place, position);
-      const double square = glm::dot(d, d);
-      if (square <= none().square) nearest[sector] = {square, block.ids[place]};
-    }
-    return nearest;
   }
 
-  /// How far all of a sector has been seen.
-  static double seen_reach(const Box& seen, const Vec3& position, Sector sector) {
-    double reach = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-      const int side = Sectors::side(sector, axis);
-      if (side >= 0) reach = std::min(reach, seen.high[axis] - position[axis]);
-      if (side <= 0) reach = std::min(reach, position[axis] - seen.low[axis]);
-    }
-    return reach;
-  }
-
-  /// The sector's part of the box that can hold a better node than the best so far, without cells that have
-  /// been seen.
-  void look_farther(std::uint32_t node, Sector sector, const PointGrid::Cells& seen, Nearest& best) const {
-    const Vec3 position = nodes_[node];
-    const double reach = std::sqrt(best.square) * (1.0 + 1e-12);  // rounding must not hide a node
+  std::uint32_t nearest_within(double reach, Sector sector, std::uint32_t place, NearNodes& near) const {
+    const Vec3 position = position_of(place);
     Box box{position, position};
     for (int axis = 0; axis < 3; ++axis) {
       const int side = Sectors::side(sector, axis);
       if (side >= 0) box.high[axis] += reach;
       if (side <= 0) box.low[axis] -= reach;
     }
-    grid_.for_each_run_outside(seen, grid_.touching(box), [&](std::span<const std::uint32_t> run) {
-      for (const std::uint32_t other : run) {
-        const Vec3 d = nodes_[other] - position;
-        if (Sectors::of(d) != sector || other == node) continue;
-        const double square = glm::dot(d, d);
-        if (best.is_beaten_by(square, other) && rules_.allows(node, other)) best = {square, other};
-      }
-    });
+    std::uint32_t nearest = kNone;
+    for (const std::uint32_t other : near.among(grid_.touching(box), position, reach)) {
+      const Vec3 d = position_of(other) - position;
+      const double square = glm::dot(d, d);
+      if (square > reach * reach || square == 0.0 || Sectors::of(d) != sector) continue;
+      if (nearest != kNone && !is_before(square, other, place, nearest)) continue;
+      if (rules_.allows(grid_.order()[place], grid_.order()[other])) nearest = other;
+    }
+    return nearest == kNone ? kNone : grid_.order()[nearest];
   }
 
   std::span<const Vec3> nodes_;
   const EdgeRules& rules_;
+  double first_reach_;
   PointGrid grid_;
+  RoundedNodes rounded_;
+  std::vector<Sides> nearest_;  // by place
 };
 
 template <class Sectors>
 std::vector<Edge> edges_of(std::span<const Vec3> nodes, const EdgeRules& rules, double spacing,
                            const std::stop_token& stop) {
-  const Search<Sectors> search(nodes, rules, spacing);
-  typename Search<Sectors>::Targets none;
-  none.fill(kNone);
-  std::vector<typename Search<Sectors>::Targets> targets(nodes.size(), none);
-  parallel_for(search.cell_count(), kGrain, [&](std::size_t begin, std::size_t end) {
-    if (!stop.stop_requested()) search.run(begin, end, targets);
-  });
+  const auto targets = Search<Sectors>(nodes, rules, spacing).run(stop);
 
-  // Two nodes that chose each other share one edge, the lower one's.
+  // Two nodes that chose each other share one edge, the lower one's. No branch: which do cannot be foreseen.
   const auto has_chosen = [&](std::uint32_t a, std::uint32_t b) {
-    return std::find(targets[a].begin(), targets[a].end(), b) != targets[a].end();
+    std::uint32_t found = 0;
+#pragma GCC unroll 1  // unrolled, the compiler would not compare four at a time
+    for (const std::uint32_t target : targets[a]) found += target == b ? 1 : 0;
+    return found != 0;
   };
   std::vector<Edge> edges;
   edges.reserve(nodes.size() * Sectors::kCount * 3 / 4);
   for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+    std::size_t count = edges.size();
+    edges.resize(count + Sectors::kCount);
     for (const std::uint32_t target : targets[node]) {
-      if (target == kNone || (target < node && has_chosen(target, node))) continue;
-      edges.push_back({node, target});
+      edges[count] = {node, target};
+      const std::uint32_t other = target == kNone ? node : target;
+      count += (target != kNone) & ((target > node) | !has_chosen(other, node));
     }
+    edges.resize(count);
   }
   return edges;
 }

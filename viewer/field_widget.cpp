@@ -122,15 +122,24 @@ WidgetOutcome schedule_input(const FieldRow& row, Schedule& schedule, const Sche
 }
 
 /// Anything else, written as in a config; taken over with Enter if it can be read.
+/// As people type it: names of files and texts without TOML's quotes.
+std::string plain_text(const FieldRow& row, void* member) {
+  if (row.kind == FieldKind::path) return static_cast<const std::filesystem::path*>(member)->string();
+  if (row.kind == FieldKind::text) return *static_cast<const std::string*>(member);
+  return toml_value(row, member);
+}
+
 WidgetOutcome text_input(const FieldRow& row, void* member) {
   std::array<char, 2048> text{};
-  const std::string now = row.kind == FieldKind::path
-                              ? static_cast<const std::filesystem::path*>(member)->string()
-                              : toml_value(row, member);
+  const std::string now = plain_text(row, member);
   std::strncpy(text.data(), now.c_str(), text.size() - 1);
   if (!ImGui::InputText("##value", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue)) return {};
   if (row.kind == FieldKind::path) {
     *static_cast<std::filesystem::path*>(member) = text.data();
+    return at_once(true);
+  }
+  if (row.kind == FieldKind::text) {
+    *static_cast<std::string*>(member) = text.data();
     return at_once(true);
   }
   // The row as a table of its own, whose owner is the member itself.
@@ -176,6 +185,7 @@ WidgetOutcome field_widget(const FieldRow& row, void* member, const void* refere
       return schedule_input(row, *static_cast<Schedule*>(member), static_cast<const Schedule*>(reference),
                             last);
     case FieldKind::sketch:
+    case FieldKind::text:
     case FieldKind::path:
       return text_input(row, member);
     case FieldKind::group:

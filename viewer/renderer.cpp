@@ -138,6 +138,7 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
   view.is_parallel = view.is_parallel || options.style != RenderStyle::lit;
   Framer framer(view, static_cast<double>(options.width) / options.height, kMargin);
   include_scene(scene, options.style, framer);
+  for (const Vec3f& point : options.room_for) framer.include(Vec3(point));
   if (options.with_scale) {
     const Vec3 base = base_of(scene);
     const Vec3 origin = framer.axes().coordinates(base);

@@ -64,11 +64,6 @@ void require_skeleton(const Scene& scene, const std::string& color_by) {
 
 }  // namespace
 
-ColorBytes color_bytes(const Color& color) {
-  const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255.0f * value)); };
-  return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
-}
-
 Vec3 base_of(const Scene& scene) {
   if (scene.skeleton != nullptr && scene.skeleton->node_count() > 0) {
     const Skeleton& skeleton = *scene.skeleton;

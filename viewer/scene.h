@@ -1,9 +1,9 @@
 // What is to be drawn, and how a picture of it is wanted.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,10 +29,11 @@ struct RenderOptions {
   ViewDirection view;
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
-  std::string color_by;        // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
-  std::optional<Color> tint;   // all of the tree in this one, whatever color_by says
-  bool with_scale = false;     // a bar with its length and a human figure beside the tree
-  bool with_occlusion = true;  // lit: the sky's light and the sun's are kept out; without, drawn sooner
+  std::string color_by;       // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
+  std::optional<Color> tint;  // all of the tree in this one, whatever color_by says
+  std::span<const Vec3f> room_for;  // points in the picture besides the scene's: one scale for several scenes
+  bool with_scale = false;          // a bar with its length and a human figure beside the tree
+  bool with_occlusion = true;       // lit: the sky's light and the sun's are kept out; without, drawn sooner
 };
 
 struct Scene {
@@ -44,11 +45,6 @@ struct Scene {
 /// Where the tree stands: the lowest root node or, without a skeleton, the middle of the mesh's underside;
 /// the origin for an empty scene. The ground is level with it.
 Vec3 base_of(const Scene& scene);
-
-/// sRGB bytes as the GPU takes them.
-using ColorBytes = std::array<std::uint8_t, 4>;
-
-ColorBytes color_bytes(const Color& color);
 
 /// Whether the mesh has colours or images of its own, to be shown as they are.
 bool shows_materials(const Mesh& mesh);

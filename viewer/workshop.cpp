@@ -5,6 +5,7 @@
 #include <chrono>
 #include <new>
 
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 #include "viewer/scene.h"
 
@@ -24,14 +25,13 @@ double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-MesherOptions mesher_of(const Order& order) {
-  MesherOptions options = order.job ? order.job->mesher : MesherOptions();
-  if (order.is_draft) {
-    options = MesherOptions();
-    options.sides_min = kDraftSides;
-    options.sides_max = kDraftSidesOfTrunk;
-  }
-  return options;
+Looks looks_of(const Order& order) {
+  if (!order.is_draft) return order.job ? order.job->looks() : Looks();
+  Looks looks;
+  looks.mesher.sides_min = kDraftSides;
+  looks.mesher.sides_max = kDraftSidesOfTrunk;
+  looks.bark.kind = BarkKind::plain;
+  return looks;
 }
 
 /// After the step that `at` names, or up to the level where the tree has levels; the whole tree where it has
@@ -61,7 +61,8 @@ void dress(Product& product, const Order& order) {
   const double start = now_seconds();
   product.last_step = last_step(product.run->skeleton);
   product.skeleton = shown_part(product.run->skeleton, order.at);
-  product.mesh = build_mesh(product.skeleton, mesher_of(order));
+  const std::uint64_t seed = order.job ? order.job->seed() : 0;
+  product.mesh = make_tree_mesh(product.skeleton, looks_of(order), seed).mesh;
   for (const Vec3& position : product.skeleton.position) product.box.include(position);
   for (const Vec3f& position : product.mesh.positions) product.box.include(Vec3(position));
   if (!order.is_draft) {

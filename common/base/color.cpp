@@ -66,4 +66,9 @@ std::optional<Color> parse_color(std::string_view text) {
   return std::nullopt;
 }
 
+ColorBytes color_bytes(const Color& color) {
+  const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255.0f * value)); };
+  return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
+}
+
 }  // namespace ramify

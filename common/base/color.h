@@ -1,6 +1,8 @@
 // Colours as people write them: encoded as sRGB, alpha straight (not multiplied in).
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -15,6 +17,11 @@ struct Color {
 
   bool operator==(const Color&) const = default;
 };
+
+/// The components as bytes, rounded.
+using ColorBytes = std::array<std::uint8_t, 4>;
+
+ColorBytes color_bytes(const Color& color);
 
 /// 0xrrggbb as an opaque colour.
 constexpr Color color_of(unsigned rgb) {

@@ -55,6 +55,8 @@ std::string allowed_values(const FieldRow& row) {
                          row.info.over, row.info.over);
     case FieldKind::sketch:
       return fmt::format("a list of points [[x, y], ...], each number {}", range_text(row.info));
+    case FieldKind::text:
+      return "a text in quotes";
     case FieldKind::path:
       return "a file's path in quotes, seen from the config's own folder";
     case FieldKind::group:

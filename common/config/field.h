@@ -27,6 +27,7 @@ enum class FieldKind {
   vector,
   schedule,
   sketch,
+  text,
   path,
   group,
   list,
@@ -80,7 +81,7 @@ concept HasFields = requires {
 };
 
 /// {key, member, info}: a row of the table of P. Members may be double, int, std::uint64_t (a seed), bool, an
-/// enum, Vec3, Schedule, Sketch, a file's path, a struct with a table of its own, a vector of such or a map
+/// enum, Vec3, Schedule, Sketch, std::string, a file's path, a struct with a table of its own, a vector of such or a map
 /// of named ones. A path is read relative to the folder of the file that names it and kept so that it opens
 /// from the working directory.
 template <class P>
@@ -124,6 +125,8 @@ struct Field : FieldRow {
       kind = FieldKind::schedule;
     } else if constexpr (std::is_same_v<M, Sketch>) {
       kind = FieldKind::sketch;
+    } else if constexpr (std::is_same_v<M, std::string>) {
+      kind = FieldKind::text;
     } else if constexpr (std::is_same_v<M, std::filesystem::path>) {
       kind = FieldKind::path;
     } else if constexpr (std::is_enum_v<M>) {

@@ -184,6 +184,9 @@ class Reader {
       case FieldKind::sketch:
         *static_cast<Sketch*>(member) = sketch(row, node, path);
         break;
+      case FieldKind::text:
+        *static_cast<std::string*>(member) = text(row, node, path);
+        break;
       case FieldKind::path:
         *static_cast<std::filesystem::path*>(member) = file_path(row, node, path);
         break;
@@ -332,13 +335,18 @@ class Reader {
     return Schedule(std::move(points));
   }
 
+  std::string text(const FieldRow& row, const toml::node& node, const std::string& path) const {
+    const auto* value = node.as_string();
+    if (!value) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    return value->get();
+  }
+
   /// "" is no file.
   std::filesystem::path file_path(const FieldRow& row, const toml::node& node,
                                   const std::string& path) const {
-    const auto* text = node.as_string();
-    if (!text) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
-    if (text->get().empty()) return {};
-    return (folder_ / text->get()).lexically_normal();
+    const std::string name = text(row, node, path);
+    if (name.empty()) return {};
+    return (folder_ / name).lexically_normal();
   }
 
   Sketch sketch(const FieldRow& row, const toml::node& node, const std::string& path) const {

@@ -123,6 +123,8 @@ std::string toml_value(const FieldRow& row, const void* member) {
       return schedule_text(*static_cast<const Schedule*>(member));
     case FieldKind::sketch:
       return sketch_text(*static_cast<const Sketch*>(member));
+    case FieldKind::text:
+      return toml_string(*static_cast<const std::string*>(member));
     case FieldKind::path:
       return toml_string(static_cast<const std::filesystem::path*>(member)->string());
     case FieldKind::group:

@@ -6,8 +6,6 @@
 #include <ostream>
 #include <sstream>
 
-#include "common/skeleton/passes.h"
-
 namespace ramify {
 namespace {
 
@@ -76,7 +74,7 @@ void write_tree(const Skeleton& skeleton, std::ostream& out) {
     if (radius > 0.0) add("sphere {{ <{}, {}, {}>, {} }}\n", end.x, end.y, end.z, radius);
     if (skeleton.is_root(node) || skeleton.length(node) == 0.0) continue;
     const Vec3& start = skeleton.position[skeleton.parent[node]];
-    const double base = base_radius(skeleton, node);
+    const double base = skeleton.start_radius(node);
     if (base + radius == 0.0) continue;
     add("cone {{ <{}, {}, {}>, {}, <{}, {}, {}>, {} }}\n", start.x, start.y, start.z, base, end.x, end.y,
         end.z, radius);

@@ -50,11 +50,11 @@ std::vector<double> to_logarithms(std::vector<double> values) {
   return values;
 }
 
-void require_attribute(const Skeleton& skeleton, std::string_view name) {
+void require_attribute(const Skeleton& skeleton, std::string_view name, std::string_view asked_by) {
   const std::vector<std::string> known = color_attributes(skeleton);
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   throw InputError(
-      fmt::format("--color-by: the tree has no attribute '{}' (it has {})", name, fmt::join(known, ", ")));
+      fmt::format("{}: the tree has no attribute '{}' (it has {})", asked_by, name, fmt::join(known, ", ")));
 }
 
 struct Extremes {
@@ -86,7 +86,7 @@ std::vector<std::string> color_attributes(const Skeleton& skeleton) {
 }
 
 AttributeScale attribute_scale(const Skeleton& skeleton, std::string_view name) {
-  require_attribute(skeleton, name);
+  require_attribute(skeleton, name, "--color-by");
   const auto [values, scale] = attribute(skeleton, name);
   AttributeScale result;
   result.is_categorical = scale == Scale::categorical;
@@ -99,8 +99,9 @@ AttributeScale attribute_scale(const Skeleton& skeleton, std::string_view name) 
   return result;
 }
 
-std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name) {
-  require_attribute(skeleton, name);
+std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name,
+                                    std::string_view asked_by) {
+  require_attribute(skeleton, name, asked_by);
   auto [values, scale] = attribute(skeleton, name);
   std::vector<Color> colors(values.size());
   if (scale == Scale::categorical) {

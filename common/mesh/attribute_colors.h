@@ -27,7 +27,9 @@ AttributeScale attribute_scale(const Skeleton& skeleton, std::string_view name);
 
 /// One colour a node. Order and level get a categorical colour a value; the others run along a sequential map
 /// from the least to the greatest value among the internodes: width, light and vigour by their logarithms,
-/// since they multiply towards the trunk. Throws InputError if the skeleton lacks the attribute.
-std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name);
+/// since they multiply towards the trunk. Throws InputError if the skeleton lacks the attribute; the
+/// message begins with `asked_by`, the flag or key that named it.
+std::vector<Color> attribute_colors(const Skeleton& skeleton, std::string_view name,
+                                    std::string_view asked_by = "--color-by");
 
 }  // namespace ramify

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/base/parallel.h"
+#include "common/mesh/detail.h"
 #include "common/mesh/wood.h"
 
 namespace ramify {
@@ -16,6 +17,7 @@ struct NodePart {
   double v = 0.0;
   double base_radius = 0.0;  // of the cone
   bool has_cone = false;
+  bool has_sphere = false;
   std::uint32_t sides = 0;
   std::size_t first_vertex = 0;
   std::size_t first_triangle = 0;
@@ -28,27 +30,40 @@ std::uint32_t latitudes(const NodePart& part) {
 
 // A ring repeats its first vertex at the end, where u jumps from 1 to 0; a pole has a vertex a side.
 std::size_t vertex_count(const NodePart& part) {
-  const std::size_t rings = latitudes(part) + (part.has_cone ? 2 : 0);
-  return rings * (part.sides + 1) + 2 * part.sides;
+  const std::size_t rings = (part.has_sphere ? latitudes(part) : 0) + (part.has_cone ? 2 : 0);
+  return rings * (part.sides + 1) + (part.has_sphere ? 2 * part.sides : 0);
 }
 
 std::size_t triangle_count(const NodePart& part) {
-  const std::size_t bands = latitudes(part) - 1 + (part.has_cone ? 1 : 0);
-  return bands * part.sides * 2 + 2 * part.sides;
+  // Both caps of a sphere together have as many as one band.
+  const std::size_t bands = (part.has_sphere ? latitudes(part) : 0) + (part.has_cone ? 1 : 0);
+  return bands * part.sides * 2;
 }
 
 double radius(const Skeleton& skeleton, std::size_t node, double thinnest) {
   return std::max(0.5 * skeleton.diameter[node], thinnest);
 }
 
-/// Frames are carried along each axis, so that bark does not jump from one cone to the next.
-std::vector<NodePart> plan_parts(const Skeleton& skeleton, const MesherOptions& options) {
+struct ConesPlan {
+  std::vector<NodePart> parts;
+  std::size_t vertex_count = 0;
+  std::size_t triangle_count = 0;
+};
+
+/// Frames are carried along each axis, so that bark does not jump from one cone to the next. With a
+/// tolerance, metres, axes that reach no farther are left out, like spheres of its size.
+ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, double tolerance = 0.0) {
   const double thinnest = thinnest_radius(skeleton);
   const double greatest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
-  std::vector<NodePart> parts(skeleton.node_count());
+  const std::vector<bool> is_kept = kept_axes(skeleton, tolerance);
+  ConesPlan plan;
+  plan.parts.resize(skeleton.node_count());
+  std::vector<NodePart>& parts = plan.parts;
   for (std::size_t node = 0; node < parts.size(); ++node) {
     NodePart& part = parts[node];
-    part.sides = side_count(skeleton.diameter[node], greatest, options);
+    const double end_radius = radius(skeleton, node, thinnest);
+    part.sides = sides_within(side_count(skeleton.diameter[node], greatest, options), end_radius, tolerance);
+    part.has_sphere = is_kept[node] && end_radius > tolerance;
     part.along = kUp;
     if (skeleton.is_root(node)) {
       part.side = any_perpendicular(kUp);
@@ -56,16 +71,21 @@ std::vector<NodePart> plan_parts(const Skeleton& skeleton, const MesherOptions& 
     }
     const std::uint32_t parent = skeleton.parent[node];
     const double length = skeleton.length(node);
-    const double end_radius = radius(skeleton, node, thinnest);
     const bool goes_on = skeleton.axis[node] == skeleton.axis[parent];
     part.base_radius = goes_on ? radius(skeleton, parent, thinnest) : end_radius;
     part.along = normalized_or(skeleton.along(node), parts[parent].along, thinnest);
     part.side = transported(parts[parent].side, parts[parent].along, part.along);
     part.v = length / (std::numbers::pi * (part.base_radius + end_radius));
     if (goes_on) part.v += parts[parent].v;
-    part.has_cone = length > std::abs(part.base_radius - end_radius) + thinnest;
+    part.has_cone = is_kept[node] && length > std::abs(part.base_radius - end_radius) + thinnest;
   }
-  return parts;
+  for (NodePart& part : parts) {
+    part.first_vertex = plan.vertex_count;
+    part.first_triangle = plan.triangle_count;
+    plan.vertex_count += vertex_count(part);
+    plan.triangle_count += triangle_count(part);
+  }
+  return plan;
 }
 
 /// Writes the parts of one node into their place in the mesh.
@@ -82,7 +102,7 @@ class PartBuilder {
 
   void build() {
     if (part_.has_cone) add_cone();
-    add_sphere();
+    if (part_.has_sphere) add_sphere();
   }
 
  private:
@@ -172,20 +192,19 @@ class PartBuilder {
 
 Mesh cones_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   if (skeleton.internode_count() == 0) return {};
-  std::vector<NodePart> parts = plan_parts(skeleton, options);
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  for (NodePart& part : parts) {
-    part.first_vertex = vertices;
-    part.first_triangle = triangles;
-    vertices += vertex_count(part);
-    triangles += triangle_count(part);
+  ConesPlan plan = plan_cones(skeleton, options);
+  const std::size_t budget = triangle_budget(plan.triangle_count, options);
+  if (plan.triangle_count > budget) {
+    const auto count = [&](double tolerance) {
+      return plan_cones(skeleton, options, tolerance).triangle_count;
+    };
+    plan = plan_cones(skeleton, options, least_tolerance(skeleton, budget, count));
   }
-  Mesh mesh = wood_of_size(vertices, triangles);
+  Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count);
   const double thinnest = thinnest_radius(skeleton);
-  parallel_for(parts.size(), 512, [&](std::size_t begin, std::size_t end) {
+  parallel_for(plan.parts.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t node = begin; node < end; ++node) {
-      PartBuilder(skeleton, node, parts[node], radius(skeleton, node, thinnest), mesh).build();
+      PartBuilder(skeleton, node, plan.parts[node], radius(skeleton, node, thinnest), mesh).build();
     }
   });
   return mesh;

@@ -1,5 +1,9 @@
 #include "common/mesh/mesher.h"
 
+#include <algorithm>
+
+#include "common/base/parallel.h"
+#include "common/mesh/attribute_colors.h"
 #include "common/mesh/cones.h"
 #include "common/mesh/smooth.h"
 #include "common/mesh/watertight.h"
@@ -25,6 +29,16 @@ const Table& MesherOptions::fields() {
        &MesherOptions::root_flare,
        {.max = 3,
         .help = "smooth: how much wider a trunk without roots is at the ground, of its radius; 0: no flare"}},
+      {"lod",
+       &MesherOptions::lod,
+       {.max = 3,
+        .help = "smooth, cones: level of detail: 0 all of it, each next one a third of the triangles"}},
+      {"max_triangles",
+       &MesherOptions::max_triangles,
+       {.max = 2e9, .help = "smooth, cones: what is small goes until the mesh has no more; 0: no limit"}},
+      {"color_by",
+       &MesherOptions::color_by,
+       {.help = "attribute of the tree that its vertices show as a colour (order, width, ...); empty: none"}},
       {"voxel_size",
        &MesherOptions::voxel_size,
        {.min = 0,
@@ -51,7 +65,9 @@ const Table& MesherOptions::fields() {
   return table;
 }
 
-Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options) {
+namespace {
+
+Mesh wood(const Skeleton& skeleton, const MesherOptions& options) {
   switch (options.method) {
     case MeshMethod::smooth:
       return smooth_mesh(skeleton, options);
@@ -61,6 +77,29 @@ Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options) {
       return watertight_mesh(skeleton, options);
   }
   return {};
+}
+
+/// Gives each vertex the colour of the node it belongs to.
+void color_vertices(Mesh& mesh, const std::vector<Color>& of_node) {
+  std::vector<ColorBytes> bytes(of_node.size());
+  std::transform(of_node.begin(), of_node.end(), bytes.begin(), color_bytes);
+  mesh.colors.resize(mesh.vertex_count());
+  parallel_for(mesh.vertex_count(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t vertex = begin; vertex < end; ++vertex) {
+      mesh.colors[vertex] = bytes[mesh.internodes[vertex]];
+    }
+  });
+  for (Material& material : mesh.materials) material.color = Vec3f(1.0f);
+}
+
+}  // namespace
+
+Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options) {
+  if (options.color_by.empty()) return wood(skeleton, options);
+  const std::vector<Color> of_node = attribute_colors(skeleton, options.color_by, "mesher.color_by");
+  Mesh mesh = wood(skeleton, options);
+  color_vertices(mesh, of_node);
+  return mesh;
 }
 
 }  // namespace ramify

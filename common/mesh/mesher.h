@@ -1,6 +1,8 @@
 // Skeleton to mesh, by one of several methods; each stands in a file of its own.
 #pragma once
 
+#include <string>
+
 #include "common/config/field.h"
 #include "common/mesh/mesh.h"
 #include "common/skeleton/skeleton.h"
@@ -20,9 +22,12 @@ enum class CentreLine {
 struct MesherOptions {
   MeshMethod method = MeshMethod::smooth;
   CentreLine centre_line = CentreLine::polyline;
-  int sides_min = 3;        // of the thinnest twigs
-  int sides_max = 12;       // of the thickest axis
-  double root_flare = 0.8;  // how much wider the trunk is at the ground, of its own radius
+  int sides_min = 3;          // of the thinnest twigs
+  int sides_max = 12;         // of the thickest axis
+  double root_flare = 0.8;    // how much wider the trunk is at the ground, of its own radius
+  int lod = 0;                // level of detail: each has a third of the triangles of the one before
+  int max_triangles = 0;      // 0: as many as it takes
+  std::string color_by = {};  // an attribute that the vertices show (attribute_colors.h); empty: none
 
   // watertight
   double voxel_size = 0.0;  // metres; 0: by the thinnest twig
@@ -33,8 +38,9 @@ struct MesherOptions {
   static const Table& fields();
 };
 
-/// The wood of a tree by options.method. All triangles have the one material "bark". A skeleton without
-/// internodes gives an empty mesh.
+/// The wood of a tree by options.method. All triangles have the one material "bark"; where vertices have
+/// colours it is white. A skeleton without internodes gives an empty mesh. Throws InputError if the skeleton
+/// lacks the attribute options.color_by, or if the budget of triangles is too small for it.
 Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options);
 
 }  // namespace ramify

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/parallel.h"
+#include "common/mesh/detail.h"
 #include "common/mesh/tube_plan.h"
 #include "common/mesh/wood.h"
 
@@ -274,11 +275,7 @@ class TubeWriter {
   double from_base_ = 0.0;
 };
 
-}  // namespace
-
-Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options) {
-  if (skeleton.internode_count() == 0) return {};
-  const TubePlan plan = plan_tubes(skeleton, options);
+Mesh mesh_of(const TubePlan& plan) {
   Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count);
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     TubeWriter writer(plan, mesh);
@@ -287,6 +284,23 @@ Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options) {
     }
   });
   return mesh;
+}
+
+}  // namespace
+
+Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options) {
+  if (skeleton.internode_count() == 0) return {};
+  const TubePlan plan = plan_tubes(skeleton, options);
+  const std::size_t budget = triangle_budget(plan.triangle_count, options);
+  if (plan.triangle_count <= budget) return mesh_of(plan);
+  const auto count = [&](double tolerance) {
+    return plan_tubes(skeleton, options, tolerance).triangle_count;
+  };
+  return smooth_mesh(skeleton, options, least_tolerance(skeleton, budget, count));
+}
+
+Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, double tolerance) {
+  return mesh_of(plan_tubes(skeleton, options, tolerance));
 }
 
 }  // namespace ramify

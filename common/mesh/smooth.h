@@ -1,6 +1,6 @@
-// The mesh method "smooth": a tube an axis, with a ring of vertices at each node. Rings are carried along the
-// axis by parallel transport, so that tubes do not twist; neighbouring internodes share their ring, so that
-// shading is smooth along a branch.
+// The mesh method "smooth": a tube an axis, swept along a line that bends in arcs. Rings are carried along by
+// parallel transport, so that tubes do not twist; neighbouring internodes share their ring, so that shading
+// is smooth along a branch.
 #pragma once
 
 #include "common/mesh/mesh.h"
@@ -9,9 +9,14 @@
 
 namespace ramify {
 
-/// A lateral's tube starts at its parent's centre line with its own first radius, so no gap shows at a fork;
-/// a root's end is closed flat and every tip by a short cone. A skeleton without internodes gives an empty
-/// mesh. O(n), on all threads.
+/// A lateral's tube begins inside its parent's surface with a collar that flows over into it; a trunk's foot
+/// flares and is closed flat, tips are rounded or, on twigs, pointed. `internodes` of a collar's first ring
+/// is the parent's node. A skeleton without internodes gives an empty mesh. O(n), on all threads; no more
+/// than the mesh itself and a few bytes a node are held. Throws InputError where the budget of triangles is
+/// too small.
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options);
+
+/// The same with a tolerance of one's own: no wood is farther than five times as far from the mesh, metres.
+Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, double tolerance);
 
 }  // namespace ramify

@@ -9,7 +9,7 @@ namespace {
 
 // Triangles that are looked at, or left out, together.
 constexpr std::size_t kBlock = 4096;
-constexpr std::size_t kVerticesATask = 8192;
+constexpr std::size_t kVerticesATask = 1 << 16;  // blocks at its ends are looked at twice
 
 /// Triangles of one material and the vertices they reach: of a mesh built tube by tube, not many.
 struct Block {
@@ -71,9 +71,11 @@ void compute_tangents(Mesh& mesh) {
   mesh.tangents.clear();
   const std::vector<Block> blocks = blocks_of(mesh);
   if (blocks.empty()) return;
-  mesh.tangents.resize(mesh.vertex_count());
+  mesh.tangents.assign(mesh.vertex_count(), glm::vec4(0.0f));  // resize() would leave them unset
   // Each task sums up for its own vertices, in the order of the triangles, whatever block they are in.
   parallel_for(mesh.vertex_count(), kVerticesATask, [&](std::size_t begin, std::size_t end) {
+    std::fill(mesh.tangents.begin() + static_cast<std::ptrdiff_t>(begin),
+              mesh.tangents.begin() + static_cast<std::ptrdiff_t>(end), glm::vec4(0.0f));
     for (const Block& block : blocks) {
       if (block.high < begin || block.low >= end) continue;
       for (std::size_t t = block.first; t < block.end; ++t) {

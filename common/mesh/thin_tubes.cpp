@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/mesh/wood.h"
-#include "common/skeleton/passes.h"
 
 namespace ramify {
 namespace {
@@ -108,7 +107,7 @@ std::size_t add_thin_tubes(const Skeleton& skeleton, const std::vector<bool>& is
   std::size_t count = 0;
   for (const std::uint32_t founder : founders) {
     std::vector<Stop> stops = {{skeleton.position[skeleton.parent[founder]],
-                                std::max(base_radius(skeleton, founder), thinnest), founder}};
+                                std::max(skeleton.start_radius(founder), thinnest), founder}};
     for (std::uint32_t node = founder; node != kNoParent; node = continuation[node]) {
       const double radius = std::max(0.5 * skeleton.diameter[node], thinnest);
       if (glm::length(skeleton.position[node] - stops.back().at) < 2.0 * radius) continue;

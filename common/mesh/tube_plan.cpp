@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/parallel.h"
+#include "common/mesh/detail.h"
 #include "common/mesh/wood.h"
 
 namespace ramify {
@@ -33,25 +34,12 @@ std::uint8_t collar_stretches(std::uint32_t sides) {
   return static_cast<std::uint8_t>(sides <= 3 ? 1 : sides <= 5 ? 2 : sides <= 8 ? 3 : 5);
 }
 
-/// How far the tree reaches beyond each node, along its internodes and with its width, metres.
-std::vector<float> reaches(const Skeleton& skeleton) {
-  std::vector<float> reach(skeleton.node_count());
-  for (std::size_t node = reach.size(); node-- > 0;) {
-    reach[node] = std::max(reach[node], static_cast<float>(skeleton.diameter[node]));
-    if (skeleton.is_root(node)) continue;
-    float& parent = reach[skeleton.parent[node]];
-    parent = std::max(parent, reach[node] + static_cast<float>(skeleton.length(node)));
-  }
-  return reach;
-}
-
 /// Chains the internodes of each axis and lists the tubes, parents before their laterals.
 void find_axes(TubePlan& plan) {
   const Skeleton& skeleton = *plan.skeleton;
   const std::size_t roots = skeleton.root_count();
   plan.continuation.assign(skeleton.node_count(), kNoParent);
-  std::vector<float> reach;
-  if (plan.tolerance > 0.0) reach = reaches(skeleton);
+  const std::vector<bool> is_kept = kept_axes(skeleton, plan.tolerance);
   std::vector<std::uint32_t> tube_of(skeleton.node_count(), kNoParent);
   for (std::size_t i = roots; i < skeleton.node_count(); ++i) {
     const auto node = static_cast<std::uint32_t>(i);
@@ -63,8 +51,7 @@ void find_axes(TubePlan& plan) {
       tube_of[node] = tube_of[parent];
       continue;
     }
-    // Where a whole axis goes, all that it bears reaches no farther and goes too.
-    if (!reach.empty() && reach[node] + skeleton.length(node) <= plan.tolerance) continue;
+    if (!is_kept[node]) continue;
     tube_of[node] = static_cast<std::uint32_t>(plan.tubes.size());
     plan.tubes.push_back({.base = parent, .first = node, .parent = tube_of[parent]});
   }
@@ -144,30 +131,28 @@ class Planner {
     }
     const double turn_max = plan_.tolerance > 0.0 ? 2.0 * kTurnMax : kTurnMax;
     count_rings(knots, plan_.line, turn_max, 0.5 * plan_.tolerance);
+    std::size_t rings = 1;
     for (std::size_t i = 1; i < knots.size(); ++i) {
       plan_.rings[knots[i].node] = static_cast<std::uint8_t>(knots[i].rings);
+      rings += knots[i].rings;
     }
     tube.is_pointed = plan_.tolerance > 0.0 && tube.sides == 3 && knots.back().radius < plan_.tolerance;
     tube.has_flare = tube.has_flare && knots[0].along.y > kLeastUpright;
-    points.clear();
-    const RootFlare flare = trace_tube(plan_, tube, knots, points);
-    tube.rings = static_cast<std::uint32_t>(points.size()) + tube.collar + (tube.has_round_tip() ? 1 : 0) -
+    if (tube.has_flare) {
+      points.clear();
+      const RootFlare flare = trace_tube(plan_, tube, knots, points);
+      tube.flare_rings = rings_below(points, flare.height);
+      rings = points.size();
+    }
+    tube.rings = static_cast<std::uint32_t>(rings) + tube.collar + (tube.has_round_tip() ? 1 : 0) -
                  (tube.is_pointed ? 1 : 0);
-    if (tube.has_flare) tube.flare_rings = rings_below(points, flare.height);
   }
 
  private:
   std::uint16_t sides(const Tube& tube) const {
     const double diameter = skeleton_.diameter[tube.first];
-    std::uint32_t wanted = side_count(diameter, greatest_, options_);
-    const double radius = 0.5 * diameter;
-    if (plan_.tolerance > 0.0) {
-      // The middle of a side lies r (1 - cos(pi / n)) inside the circle.
-      const double cosine = std::clamp(1.0 - plan_.tolerance / std::max(radius, plan_.thinnest), -0.5, 1.0);
-      const double enough = std::ceil(std::numbers::pi / std::acos(cosine));
-      wanted = std::min(wanted, static_cast<std::uint32_t>(std::max(3.0, std::min(enough, 64.0))));
-    }
-    return static_cast<std::uint16_t>(wanted);
+    const std::uint32_t wanted = side_count(diameter, greatest_, options_);
+    return static_cast<std::uint16_t>(sides_within(wanted, 0.5 * diameter, plan_.tolerance));
   }
 
   Knot knot_at(std::uint32_t node) const {

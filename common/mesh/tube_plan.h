@@ -50,9 +50,9 @@ struct TubePlan {
   double radius(std::size_t node) const { return std::max(0.5 * skeleton->diameter[node], thinnest); }
 };
 
-/// Every surface of the full detail is within `tolerance` metres of one that is kept: axes whose subtrees
-/// reach no farther go whole, lines are straightened and tubes have fewer sides. With a tolerance of 0
-/// nothing goes but nodes that crowd. O(n), on all threads.
+/// With a tolerance, metres, axes whose subtrees reach no farther are left out, lines are straightened by no
+/// more than half of it and tubes have fewer sides; collars, arcs and the flare go where they are of its
+/// size. Without one nothing goes but nodes that crowd. O(n), on all threads.
 TubePlan plan_tubes(const Skeleton& skeleton, const MesherOptions& options, double tolerance = 0.0);
 
 /// The knots of a tube that is not left out, measured; a lateral's begin at its fork's center.

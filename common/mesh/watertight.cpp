@@ -12,7 +12,6 @@
 #include "common/mesh/thin_tubes.h"
 #include "common/mesh/wood.h"
 #include "common/mesh/wood_field.h"
-#include "common/skeleton/passes.h"
 
 namespace ramify {
 namespace {
@@ -30,14 +29,14 @@ double cone_volume(double length, double a, double b) {
 }
 
 double wood_volume(const Skeleton& skeleton, std::size_t internode) {
-  return cone_volume(skeleton.length(internode), base_radius(skeleton, internode),
+  return cone_volume(skeleton.length(internode), skeleton.start_radius(internode),
                      0.5 * skeleton.diameter[internode]);
 }
 
 /// Voxels within the band around an internode's surface.
 double band_voxels(const Skeleton& skeleton, std::size_t internode, double voxel_size) {
   const double band = kBandVoxels * voxel_size;
-  const double base = base_radius(skeleton, internode);
+  const double base = skeleton.start_radius(internode);
   const double tip = 0.5 * skeleton.diameter[internode];
   const double length = skeleton.length(internode);
   const double shell = cone_volume(length, base + band, tip + band) -
@@ -60,7 +59,7 @@ WatertightPlan plan_with(const Skeleton& skeleton, double voxel_size) {
   for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
     if (skeleton.is_root(node)) continue;
     const std::size_t parent = skeleton.parent[node];
-    const double thinnest = std::min(2.0 * base_radius(skeleton, node), skeleton.diameter[node]);
+    const double thinnest = std::min(2.0 * skeleton.start_radius(node), skeleton.diameter[node]);
     // Rounding must not take the twig that chose the size.
     const bool is_thick = thinnest >= kVoxelsAcross * voxel_size * (1.0 - 1e-9);
     plan.is_kept[node] = is_thick && (skeleton.is_root(parent) || plan.is_kept[parent]);
@@ -130,7 +129,7 @@ struct TextureFrames {
   }
 
   static double girth(const Skeleton& skeleton, std::size_t internode) {
-    const double radii = base_radius(skeleton, internode) + 0.5 * skeleton.diameter[internode];
+    const double radii = skeleton.start_radius(internode) + 0.5 * skeleton.diameter[internode];
     return std::max(std::numbers::pi * radii, 1e-9);
   }
 
@@ -184,7 +183,7 @@ WatertightPlan plan_watertight(const Skeleton& skeleton, const MesherOptions& op
   double thinnest = trunk;
   for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
     if (!skeleton.is_root(node))
-      thinnest = std::min({thinnest, skeleton.diameter[node], 2.0 * base_radius(skeleton, node)});
+      thinnest = std::min({thinnest, skeleton.diameter[node], 2.0 * skeleton.start_radius(node)});
   }
   const double finest = std::max(thinnest, kFinestShare * trunk) / kVoxelsWanted;
   return finest_plan(skeleton, finest, coarsest);

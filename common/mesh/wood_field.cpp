@@ -4,8 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "common/skeleton/passes.h"
-
 namespace ramify {
 namespace {
 
@@ -70,13 +68,13 @@ class ForkFinder {
   void add_forks(std::uint32_t node, std::vector<Fork>& forks) const {
     const std::vector<std::uint32_t>& laterals = branching_.laterals[node];
     for (std::size_t i = 0; i < laterals.size(); ++i) {
-      const double radius = base_radius(skeleton_, laterals[i]);
+      const double radius = skeleton_.start_radius(laterals[i]);
       Fork fork = empty_fork(node, radius, 0.5 * skeleton_.diameter[node]);
       fork.cones = cones_upwards(laterals[i], fork);
       fork.others = cones_through(node, fork);
       if (!fork.others.empty()) forks.push_back(std::move(fork));
       for (std::size_t j = 0; j < i; ++j) {
-        Fork sides = empty_fork(node, radius, base_radius(skeleton_, laterals[j]));
+        Fork sides = empty_fork(node, radius, skeleton_.start_radius(laterals[j]));
         sides.cones = cones_upwards(laterals[i], sides);
         sides.others = cones_upwards(laterals[j], sides);
         forks.push_back(std::move(sides));
@@ -206,7 +204,7 @@ WoodField wood_field(const Skeleton& skeleton, const std::vector<bool>& is_kept,
     const std::uint32_t parent = skeleton.parent[node];
     const Vec3 cut = skeleton.is_root(parent) ? cut_at_root(skeleton, branching, node) : Vec3(0.0);
     cone_of[node] = static_cast<std::uint32_t>(field.cones.size());
-    field.cones.emplace_back(skeleton.position[parent], base_radius(skeleton, node), skeleton.position[node],
+    field.cones.emplace_back(skeleton.position[parent], skeleton.start_radius(node), skeleton.position[node],
                              0.5 * skeleton.diameter[node], cut, node);
   }
   if (blend > 0.0) {

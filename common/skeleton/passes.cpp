@@ -86,14 +86,6 @@ std::vector<std::uint16_t> strahler_orders(const Skeleton& skeleton) {
   return order;
 }
 
-double base_radius(const Skeleton& skeleton, std::size_t internode) {
-  const auto channel = skeleton.channels.find("start_radius");
-  if (channel != skeleton.channels.end()) return channel->second[internode];
-  const std::uint32_t parent = skeleton.parent[internode];
-  const bool is_lateral = skeleton.axis[internode] != skeleton.axis[parent];
-  return 0.5 * skeleton.diameter[is_lateral ? internode : parent];
-}
-
 void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model,
                            const std::vector<std::uint32_t>& lost_tips) {
   if (!(model.exponent > 0)) {

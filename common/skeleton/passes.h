@@ -26,10 +26,6 @@ void assign_orders(Skeleton& skeleton);
 /// children have it (Horton 1945, Strahler 1952).
 std::vector<std::uint16_t> strahler_orders(const Skeleton& skeleton);
 
-/// Metres, how thick an internode begins, from its axis: as its parent ends, or a lateral's as it ends
-/// itself; what its channel "start_radius" says, where there is one. O(1) but for the channel's look-up.
-double base_radius(const Skeleton& skeleton, std::size_t internode);
-
 /// Sets `diameter` by the pipe model (Shinozaki et al. 1964; Palubicki et al. 2009, 4.4) over all nodes of
 /// the skeleton, shed ones included: a branch never gets thinner. A root node is as wide as its children
 /// together. `lost_tips`, if given, has one entry a node: tips of children that are no longer in the

@@ -67,6 +67,20 @@ TEST_CASE("dress: images and leaves of one's own are looked for beside the confi
   CHECK(glb["meshes"][0]["primitives"].size() == 2);
 }
 
+TEST_CASE("dress: the example with a leaf of one's own works from its file") {
+  const std::string config = std::string(RAMIFY_SOURCE_DIR) + "/docs/own-leaf/ash.toml";
+  const Folder folder;
+  const Outcome outcome =
+      run_program("generate " + config + " --steps 12 -o a.glb --json --quiet", folder.path().string());
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const auto json = nlohmann::json::parse(outcome.out);
+  CHECK(json["leaves"]["count"].get<int>() > 10);
+  const nlohmann::json glb = json_of_glb(folder.file("a.glb"));
+  REQUIRE(glb["materials"].size() == 3);  // bark, the midribs and the leaflets
+  CHECK(glb["materials"][2]["name"] == "leaf-2");
+}
+
 TEST_CASE("dress: what cannot be used is one line with file, line and key, exit code 2 and no file") {
   const Folder folder;
   const std::string png = png_bytes({64, 64, std::vector<std::uint8_t>(4 * 64 * 64, 99)});

@@ -83,8 +83,9 @@ TEST_CASE("errors: outputs that cannot be are found before the engine starts") {
   const Folder folder;
   const std::string where = folder.path().string();
   fs::create_directory(folder.path() / "folder.glb");
-  check_failure(run_program("generate s4-fig6 -o a.xyz", where), 2,
-                "a.xyz: unknown ending '.xyz' (.glb .gltf .obj .skel.ply .ply .csv .swc .mtg .png .vdb)\n");
+  check_failure(
+      run_program("generate s4-fig6 -o a.xyz", where), 2,
+      "a.xyz: unknown ending '.xyz' (.glb .gltf .obj .skel.ply .ply .stl .pov .csv .swc .mtg .png .vdb)\n");
   check_failure(run_program("generate s4-fig6 -o a", where), 2, "a: unknown ending ''");
   check_failure(run_program("generate s4-fig6 -o a.glb -o ./a.glb", where), 2,
                 "./a.glb: two outputs would write this file\n");

@@ -200,6 +200,38 @@ TEST_CASE("generate: a tree that does not grow still makes sound files") {
   CHECK(folder.count() == 5);
 }
 
+TEST_CASE("generate: --lod asks for fewer triangles, mesher keys for colours and a budget") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  const auto triangles = [&](const std::string& arguments) {
+    const Outcome outcome = run_program("generate s4-fig8 -o a.ply --json " + arguments, where);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(outcome.out)["triangles"].get<int>();
+  };
+  const int full = triangles("");
+  CHECK(triangles("--lod 0") == full);
+  CHECK(triangles("--lod 1") <= full / 3);
+  CHECK(triangles("--lod 3") <= full / 27);
+  CHECK(triangles("--set mesher.max_triangles=1000") <= 1000);
+  CHECK(triangles("--set mesher.method=cones") > full);
+  CHECK(triangles("--set mesher.centre_line=catmull-rom") > 1000);
+  CHECK(triangles("--set mesher.color_by=order") == full);
+
+  const Folder empty;
+  const std::string there = empty.path().string();
+  const Outcome unknown = run_program("generate s4-fig6 -o a.glb --set mesher.color_by=level", there);
+  CHECK(unknown.code == 2);
+  CHECK(contains(unknown.err, "mesher.color_by: the tree has no attribute 'level' (it has order, "));
+  const Outcome level = run_program("generate s4-fig6 -o a.glb --lod 4", there);
+  CHECK(level.code == 2);
+  CHECK(contains(level.err, "mesher.lod: 4"));
+  const Outcome budget = run_program("generate s4-fig6 -o a.glb --set mesher.max_triangles=1", there);
+  CHECK(budget.code == 2);
+  CHECK(contains(budget.err, "1 are allowed by lod and max_triangles"));
+  CHECK(empty.count() == 0);
+}
+
 TEST_CASE("check: reads and validates and makes nothing") {
   const Folder folder;
   const Outcome outcome = run_program("check s4-fig6 xm12-fig5", folder.path().string());

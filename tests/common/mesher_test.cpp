@@ -4,6 +4,8 @@
 #include <map>
 
 #include "common/base/parallel.h"
+#include "common/mesh/attribute_colors.h"
+#include "common/mesh/smooth.h"
 #include "common/skeleton/passes.h"
 #include "tests/catch.h"
 #include "tests/common/trees.h"
@@ -24,6 +26,23 @@ Skeleton slim_tree(int depth) {
   Skeleton s = binary_tree(depth);
   for (double& d : s.diameter) d *= 0.1;
   return s;
+}
+
+/// Of a point from a triangle, metres.
+double distance_to_triangle(const Mesh& mesh, std::size_t t, const Vec3f& point) {
+  const auto& [i, j, k] = mesh.triangles[t];
+  const Vec3 corners[] = {Vec3(mesh.positions[i]), Vec3(mesh.positions[j]), Vec3(mesh.positions[k])};
+  const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  bool is_above = true;
+  double nearest = 1e9;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Vec3 edge = corners[(a + 1) % 3] - corners[a];
+    const Vec3 offset = Vec3(point) - corners[a];
+    is_above = is_above && glm::dot(glm::cross(edge, offset), normal) >= 0.0;
+    const double share = std::clamp(glm::dot(offset, edge) / glm::dot(edge, edge), 0.0, 1.0);
+    nearest = std::min(nearest, glm::length(offset - edge * share));
+  }
+  return is_above ? std::abs(glm::dot(Vec3(point) - corners[0], glm::normalize(normal))) : nearest;
 }
 
 /// Well inside the cylinder of an internode.
@@ -194,6 +213,138 @@ TEST_CASE("mesher: cones are closed, face outwards and fill what the cones and s
       Vec3f sum(0.0f);
       for (const std::uint32_t vertex : random.triangles[t]) sum += random.normals[vertex];
       CHECK(glm::dot(sum, area_vector(random, t)) > 0);
+    }
+  }
+}
+
+TEST_CASE("mesher: each level of detail has at most a third of the triangles, a budget is kept") {
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+    for (const Skeleton& tree : {slim_tree(9), random_tree(4, 2000)}) {
+      const std::size_t full = build_mesh(tree, {.method = method}).triangles.size();
+      std::size_t limit = full;
+      for (int lod = 1; lod <= 3; ++lod) {
+        const Mesh mesh = build_mesh(tree, {.method = method, .lod = lod});
+        check_sound(mesh);
+        limit /= 3;
+        CHECK(mesh.triangles.size() <= limit);
+        CHECK(mesh.triangles.size() > limit / 2);
+      }
+      // A budget is nearly used up.
+      const int budget = static_cast<int>(full / 5);
+      const Mesh mesh = build_mesh(tree, {.method = method, .max_triangles = budget});
+      CHECK(static_cast<int>(mesh.triangles.size()) <= budget);
+      CHECK(static_cast<int>(mesh.triangles.size()) > budget / 2);
+      CHECK_THROWS_WITH(build_mesh(tree, {.method = method, .max_triangles = 2}),
+                        Catch::Contains("mesher: the tree's mesh has at least") &&
+                            Catch::Contains("2 are allowed by lod and max_triangles"));
+    }
+  }
+}
+
+TEST_CASE("mesher: wood that is left out or straightened is within five times the tolerance of what stays") {
+  const Skeleton tree = slim_tree(6);
+  const Mesh full = build_mesh(tree, {});
+  for (const double tolerance : {0.005, 0.02, 0.1}) {
+    const Mesh coarse = smooth_mesh(tree, {}, tolerance);
+    CHECK(coarse.triangles.size() < full.triangles.size());
+    double farthest = 0.0;
+    for (const Vec3f& p : full.positions) {
+      double nearest = 1e9;
+      for (std::size_t t = 0; t < coarse.triangles.size() && nearest > 0.5 * tolerance; ++t) {
+        nearest = std::min(nearest, distance_to_triangle(coarse, t, p));
+      }
+      farthest = std::max(farthest, nearest);
+    }
+    CHECK(farthest < 5.0 * tolerance);
+  }
+}
+
+TEST_CASE("mesher: vertices show an attribute of their internode, or it is said which there are") {
+  const Skeleton tree = random_tree(3, 300);
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+    for (const std::string& name : color_attributes(tree)) {
+      const Mesh mesh = build_mesh(tree, {.method = method, .color_by = name});
+      const std::vector<Color> colors = attribute_colors(tree, name);
+      REQUIRE(mesh.colors.size() == mesh.vertex_count());
+      std::size_t wrong = 0;
+      for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        wrong += mesh.colors[v] != color_bytes(colors[mesh.internodes[v]]);
+      }
+      CHECK(wrong == 0);
+    }
+  }
+  CHECK(build_mesh(tree, {}).colors.empty());
+  CHECK_THROWS_WITH(build_mesh(pole(2), {.color_by = "light"}),
+                    "mesher.color_by: the tree has no attribute 'light' (it has order, strahler, width)");
+}
+
+TEST_CASE("mesher: a curve through the nodes has many rings in bends and few where it is straight") {
+  Skeleton bent = pole(6);
+  for (std::size_t i = 0; i < bent.node_count(); ++i) {
+    const double angle = radians(25.0) * static_cast<double>(i);
+    bent.position[i] = 2.0 * Vec3(1.0 - std::cos(angle), std::sin(angle), 0);
+  }
+  for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
+    const MesherOptions options{.centre_line = line, .sides_min = 12, .root_flare = 0.0};
+    const Mesh curved = build_mesh(bent, options);
+    CHECK(curved.triangles.size() > 3 * build_mesh(pole(6), options).triangles.size() / 2);
+    check_sound(curved);
+    // All around the circle of 2 m, on which the nodes lie; chords and arcs cut it by 5 cm.
+    for (const Vec3f& p : curved.positions) {
+      const double off = std::hypot(std::hypot(p.x - 2.0, p.y) - 2.0, p.z);
+      if (p.y > 0.3 && p.x < 3.3) CHECK(off < 0.1 + 0.05);
+    }
+  }
+}
+
+TEST_CASE("mesher: a trunk's foot widens, not that of trees with roots, nor beyond a seedling's foot") {
+  const auto widest = [](const Mesh& mesh, float low, float high) {
+    float result = 0.0f;
+    for (const Vec3f& p : mesh.positions) {
+      if (p.y >= low && p.y <= high) result = std::max(result, std::hypot(p.x, p.z));
+    }
+    return result;
+  };
+  Skeleton s = pole_of_width(10, 0.2);
+  const Mesh flared = build_mesh(s, {});
+  CHECK(widest(flared, -1, 0.01f) > 0.15f);
+  CHECK(widest(flared, 0.4f, 20) < 0.1001f);
+  CHECK(widest(build_mesh(s, {.root_flare = 0.0}), -1, 20) < 0.1001f);
+  const Skeleton seedling = pole_of_width(1, 0.2);
+  CHECK(widest(build_mesh(seedling, {}), 0.201f, 2) < 0.1001f);
+  s.position.push_back(Vec3(0.5, -1, 0));
+  s.parent.push_back(0);
+  s.diameter.push_back(0.1);
+  s.kind.push_back(Kind::root);
+  assign_axes(s);
+  CHECK(widest(build_mesh(s, {}), 0.2f, 20) < 0.1001f);
+}
+
+TEST_CASE("mesher: skeletons at the edge of sense give sound meshes or none") {
+  std::vector<Skeleton> trees;
+  trees.push_back(random_tree(1, 50));
+  for (Vec3& p : trees.back().position) p = Vec3(1, 2, 3);  // all in one place
+  trees.push_back(random_tree(2, 50));
+  for (double& d : trees.back().diameter) d = 0.0;
+  trees.push_back(random_tree(3, 50));
+  for (std::size_t i = 0; i < 25; ++i) trees.back().position[2 * i + 1] = trees.back().position[2 * i];
+  trees.push_back(pole(9));  // there and back
+  for (std::size_t i = 0; i < 10; ++i) trees.back().position[i] = Vec3(0, i % 2, 0);
+  trees.push_back(random_tree(5, 50));
+  for (Vec3& p : trees.back().position) p += Vec3(1e5, 0, 1e5);
+  trees.push_back(random_tree(6, 50));
+  for (double& d : trees.back().diameter) d *= 30.0;
+  for (const Skeleton& tree : trees) {
+    for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+      for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
+        const Mesh mesh = build_mesh(tree, {.method = method, .centre_line = line});
+        for (const Vec3f& p : mesh.positions) REQUIRE(std::isfinite(p.x + p.y + p.z));
+        for (const Vec3f& n : mesh.normals) REQUIRE(std::abs(glm::length(n) - 1.0f) < 1e-4f);
+        for (const Vec2f& uv : mesh.uvs) REQUIRE(std::isfinite(uv.x + uv.y));
+        for (const auto& triangle : mesh.triangles) {
+          for (const std::uint32_t vertex : triangle) REQUIRE(vertex < mesh.vertex_count());
+        }
+      }
     }
   }
 }

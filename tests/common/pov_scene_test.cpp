@@ -32,7 +32,9 @@ TEST_CASE("POV-Ray: a cone an internode, a sphere a node, a camera and two light
   CHECK(count(scene, "\nsphere {") == 4);
   CHECK(count(scene, "\ncamera {") == 1);
   CHECK(count(scene, "\nlight_source {") == 2);
-  CHECK(scene.find("cone { <0, 0, 0>, 0.1, <0, 1, 0>, ") != std::string::npos);
+  const std::size_t second = scene.find("\ncone { <0, 1, 0>, 0.0833");  // from node 1 to node 2
+  REQUIRE(second != std::string::npos);
+  CHECK(scene.find(", <0, 2, 0>, 0.0666", second) < scene.find("\n", second + 1));
 }
 
 TEST_CASE("POV-Ray: comments say what made the scene") {

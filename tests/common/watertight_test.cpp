@@ -28,7 +28,7 @@ double wood_volume(const Skeleton& s) {
   double sum = 0.0;
   for (std::size_t node = 0; node < s.node_count(); ++node) {
     if (s.is_root(node)) continue;
-    const double a = base_radius(s, node);
+    const double a = s.start_radius(node);
     const double b = 0.5 * s.diameter[node];
     sum += std::numbers::pi / 3 * s.length(node) * (a * a + a * b + b * b);
   }

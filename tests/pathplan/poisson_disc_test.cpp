@@ -119,28 +119,28 @@ TEST_CASE("nodes: a volume lost in its box is an error, not a lack of memory") {
   }
 }
 
-TEST_CASE("point grid: every point is in one cell, and blocks hold all points within their reach") {
+TEST_CASE("point grid: every point is in one cell, and a box of cells holds the points in the box") {
   const Place place = places()[2];
   const Nodes nodes = scatter_nodes(place.volume, place.root, {.nodes = 500});
   for (const double edge : {0.01, 0.3, 1.0, 50.0}) {
     const PointGrid grid(nodes.position, edge);
     std::multiset<std::uint32_t> met;
     for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-      const PointGrid::Cells around = grid.around(cell);
-      const Box covered = grid.covered_by(around);
-      std::set<std::uint32_t> in_block;
-      grid.for_each_run(around,
-                        [&](std::span<const std::uint32_t> run) { in_block.insert(run.begin(), run.end()); });
-      for (std::uint32_t i = 0; i < 500; ++i) {
-        const Vec3& p = nodes.position[i];
-        const bool is_within =
-            glm::all(glm::lessThan(covered.low, p)) && glm::all(glm::lessThan(p, covered.high));
-        if (is_within) REQUIRE(in_block.count(i) == 1);
-      }
       for (const std::uint32_t id : grid.ids_in(cell)) met.insert(id);
     }
     CHECK(met.size() == 500);
     CHECK(std::set<std::uint32_t>(met.begin(), met.end()).size() == 500);
     CHECK(grid.cell_count() <= 8 * 501);
+
+    const Box box{place.root - 0.4, place.root + 0.6};
+    std::set<std::uint32_t> in_cells;
+    grid.for_each_run(grid.touching(box),
+                      [&](std::span<const std::uint32_t> run) { in_cells.insert(run.begin(), run.end()); });
+    for (std::uint32_t i = 0; i < 500; ++i) {
+      const Vec3& p = nodes.position[i];
+      const bool is_within =
+          glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
+      if (is_within) REQUIRE(in_cells.count(i) == 1);
+    }
   }
 }

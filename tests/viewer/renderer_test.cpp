@@ -335,3 +335,17 @@ TEST_CASE("scale: figure and bar stand in the picture beside the tree") {
   CHECK(figure > 50);
   CHECK(trunk > 200);
 }
+
+TEST_CASE("renderer: with room for the other's points two trees are drawn to one scale") {
+  const Tree low(pole_of(4, 1.0, 0.1));
+  const Tree high(pole_of(4, 4.0, 0.1));
+  RenderOptions options = small(RenderStyle::schematic);
+  Renderer renderer;
+  const Extent alone = drawn_extent(renderer.render(low.scene(), options));
+  const Extent whole = drawn_extent(renderer.render(high.scene(), options));
+  options.room_for = high.mesh.positions;
+  const Extent beside = drawn_extent(renderer.render(low.scene(), options));
+  CHECK(alone.bottom - alone.top == Approx(90).margin(2));
+  CHECK(4 * (beside.bottom - beside.top) == Approx(whole.bottom - whole.top).margin(5));
+  CHECK(beside.bottom == whole.bottom);
+}

@@ -1,0 +1,46 @@
+// Plots, drawn by gnuplot (http://www.gnuplot.info) where it is installed.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ramify::cli {
+
+enum class PlotStyle {
+  steps,   // a histogram's outline: x is the middle of a bin
+  points,  // points joined by lines
+};
+
+/// x and y have the same size.
+struct Series {
+  std::string label;
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+struct Plot {
+  std::string name;  // of its files, without ending
+  std::string x_label;
+  std::string y_label;
+  PlotStyle style = PlotStyle::points;
+  double x_low = 0.0;  // what the x axis shows; as the series have it if both are the same
+  double x_high = 0.0;
+  bool is_x_logarithmic = false;
+  bool is_y_logarithmic = false;
+  std::vector<Series> series;  // drawn in colours and dashes that tell eight apart
+};
+
+/// Whether there is a gnuplot to draw with.
+bool has_gnuplot();
+
+/// Draws NAME.svg and NAME.png of each plot into `folder`. The SVG has no background of its own and takes
+/// light ink on pages that are dark. Throws RunError with gnuplot's words if it fails.
+void draw_plots(std::span<const Plot> plots, const std::filesystem::path& folder);
+
+/// The colour of the i-th series, "#rrggbb", for legends beside plots (after Okabe and Ito 2008, told apart
+/// by the colour-blind too).
+std::string series_color(std::size_t index);
+
+}  // namespace ramify::cli
