@@ -9,6 +9,7 @@
 #include "cli/inputs.h"
 #include "cli/outputs.h"
 #include "common/base/errors.h"
+#include "common/format/embedded_config.h"
 #include "common/format/skeleton_files.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
@@ -24,6 +25,17 @@ struct ViewFlags {
   ConfigFlags configuring;
 };
 
+/// The config of a mesh that ramify made; nothing for one of others.
+std::optional<Job> embedded_job(const std::string& input, const Session& session) {
+  if (is_config(input) || !may_embed_config(input)) return std::nullopt;
+  try {
+    embedded_config(input);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return load_job(session.registry, input);
+}
+
 Opened open(const std::string& input, const ViewFlags& flags, const Session& session) {
   Opened opened{.input = input, .job = {}, .tree = {}, .mesh = {}};
   if (is_config(input)) {
@@ -38,7 +50,8 @@ Opened open(const std::string& input, const ViewFlags& flags, const Session& ses
     run->report.warnings = std::move(file.notes);
     opened.tree = std::move(run);
   } else {
-    opened.mesh = read_tree(input, {}, session).mesh;
+    opened.job = embedded_job(input, session);
+    if (!opened.job) opened.mesh = read_tree(input, {}, session).mesh;
   }
   return opened;
 }

@@ -52,6 +52,7 @@ void choose_colors(Workbench& bench) {
   bench.report.add("color");
   if (!is_open) return;
   if (ImGui::Selectable("what it is made of", bench.show.color_by.empty())) bench.show.color_by.clear();
+  bench.report.add("color.none");
   for (const std::string& name : attributes_of(bench)) {
     if (ImGui::Selectable(name.c_str(), bench.show.color_by == name)) bench.show.color_by = name;
     bench.report.add("color." + name);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -17,7 +18,9 @@ void WidgetReport::add(std::string_view name) {
 
 void WidgetReport::add(std::string_view name, float x0, float y0, float x1, float y1) {
   if (!is_on_) return;
-  next_[std::string(name)] = fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", x0, y0, x1, y1);
+  std::string word(name);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  next_[word] = fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", x0, y0, x1, y1);
 }
 
 void WidgetReport::flush() {

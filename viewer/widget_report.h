@@ -8,7 +8,8 @@
 namespace ramify {
 
 /// Lines on standard output: "RECT name x0 y0 x1 y1", pixels of the window, for each widget that is seen, and
-/// "GONE name" when it no longer is; only where something changed. Does nothing unless it is on.
+/// "GONE name" when it no longer is; only where something changed. Spaces in names become underscores. Does
+/// nothing unless it is on.
 class WidgetReport {
  public:
   explicit WidgetReport(bool is_on) : is_on_(is_on) {}
