@@ -174,7 +174,8 @@ WatertightPlan plan_watertight(const Skeleton& skeleton, const MesherOptions& op
   if (options.voxel_size > 0.0) {
     WatertightPlan plan = plan_with(skeleton, options.voxel_size);
     if (plan.predicted_voxels <= kActiveVoxelsMax) return plan;
-    const double possible = finest_plan(skeleton, options.voxel_size, coarsest).voxel_size;
+    // A little more, so that what is printed of it fits as well.
+    const double possible = 1.001 * finest_plan(skeleton, options.voxel_size, coarsest).voxel_size;
     throw InputError(
         fmt::format("mesher.voxel_size: {} m takes about {:.3g} million voxels, more than {:g} (at "
                     "least {:.4g}, or 0: chosen)",
