@@ -189,7 +189,8 @@ TEST_CASE("stats: what is wrong is one line") {
   const std::string where = folder.path().string();
   REQUIRE(run_program("generate s4-fig6 -o a.csv -o a.glb", where).code == 0);
   check_failure("stats a.glb", where,
-                "a.glb: a mesh has no skeleton (a config, a preset or a file ending in .csv, .txt)");
+                "a.glb: a mesh has no skeleton (a config, a preset or a file ending in .csv, .txt, "
+                ".skel.ply, .swc, .mtg)");
   check_failure("stats s4-fig6 --csv --json", where, "--csv: not together with --json (one of them)");
   check_failure("stats s4-fig66", where, "s4-fig66: no such file or preset (did you mean 's4-fig6'?)");
   check_failure("stats s4-fig6 none.csv", where, "none.csv: cannot read: No such file or directory");
@@ -199,4 +200,19 @@ TEST_CASE("stats: what is wrong is one line") {
   const Outcome none = run_program("stats", where);
   CHECK(none.code == 2);
   CHECK(none.err.find("input is required") != std::string::npos);
+}
+
+TEST_CASE("stats: a glTF file carries the metrics of its tree") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  REQUIRE(run_program("generate s4-fig8 -o a.gltf --quiet", where).code == 0);
+  const ordered_json file = ordered_json::parse(read_file(folder.file("a.gltf")));
+  const ordered_json carried = file["asset"]["extras"]["ramify"]["metrics"];
+  const ordered_json printed = ordered_json::parse(run_program("stats s4-fig8 --json").out);
+  CHECK(carried.size() > 25);
+  for (const auto& [key, value] : carried.items()) {
+    INFO(key);
+    CHECK(value.get<double>() == Approx(printed[key].get<double>()));
+  }
+  CHECK_FALSE(carried.contains("crown_volume"));  // a flat tree has none
 }
