@@ -20,7 +20,6 @@ struct Fork {
   double widening_above = 0.0;
   double inset = 1.0;      // share of the radius that lies within the parent's facets all round
   bool is_ground = false;  // the parent begins here: nothing lies below
-  std::uint32_t node = 0;
 };
 
 struct SurfacePoint {

@@ -118,7 +118,6 @@ class TubeWriter {
     const Vec3 across = glm::cross(along_, side_);
     const Vec2f* circle = unit_circle(sides);
     const double girth = 2.0 * std::numbers::pi * radius;
-    const bool shows_parent = !plan_.skeleton->is_root(fork.node);
     for (std::uint32_t i = 0; i <= sides; ++i) {
       const Vec2f& turn = circle[i % sides];
       const CollarLine line = collar_line(fork, lateral, side_ * double{turn.x} + across * double{turn.y});
@@ -127,10 +126,8 @@ class TubeWriter {
       for (std::uint32_t ring = 0; ring <= tube_->collar; ++ring) {
         const double t = static_cast<double>(ring) / tube_->collar;
         const SurfacePoint point = line.at(t);
-        // What grows over a branch's base is its parent's wood.
-        const std::uint32_t node = ring == 0 && shows_parent ? fork.node : end.node;
         set_vertex(vertex_ + ring * (sides + 1) + i, point.position, point.normal,
-                   static_cast<double>(i) / sides, (top - (1.0 - t) * length) / girth, node);
+                   static_cast<double>(i) / sides, (top - (1.0 - t) * length) / girth, end.node);
       }
     }
     for (std::uint32_t ring = 0; ring < tube_->collar; ++ring) {

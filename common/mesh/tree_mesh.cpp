@@ -17,8 +17,10 @@ double total_area(const LeafModel& model, const std::vector<Leaf>& leaves) {
 TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed) {
   TreeMesh tree;
   tree.mesh = build_mesh(skeleton, looks.mesher);
-  dress_in_bark(tree.mesh, skeleton, looks.bark);
-  compute_tangents(tree.mesh);
+  if (looks.mesher.color_by.empty()) {  // else its colours are to be read, and bark would change them
+    dress_in_bark(tree.mesh, skeleton, looks.bark);
+    compute_tangents(tree.mesh);
+  }
   if (!looks.leaves.is_on()) return tree;
 
   const LeafModel model = leaf_model(looks.leaves);

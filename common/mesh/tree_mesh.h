@@ -22,8 +22,9 @@ struct TreeMesh {
   double leaf_area = 0.0;  // of one side, square metres
 };
 
-/// Wood first, then leaves. `seed` is the tree's: leaves are as random as it. Throws InputError for images
-/// and leaf meshes that cannot be used and RunError for too many leaves.
+/// Wood first, then leaves. Wood that shows an attribute has no bark over it. `seed` is the tree's: leaves
+/// are as random as it. Throws InputError for images and leaf meshes that cannot be used and RunError for too
+/// many leaves.
 TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed);
 
 }  // namespace ramify

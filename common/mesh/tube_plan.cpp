@@ -287,7 +287,6 @@ Fork fork_at(const TubePlan& plan, const Tube& lateral) {
   const Skeleton& skeleton = *plan.skeleton;
   const std::uint32_t node = lateral.base;
   Fork fork;
-  fork.node = node;
   fork.center = skeleton.position[node];
   fork.radius = plan.radius(node);
   if (lateral.parent == kNoParent) return fork;

@@ -6,6 +6,7 @@
 #include "common/base/parallel.h"
 #include "common/mesh/attribute_colors.h"
 #include "common/mesh/smooth.h"
+#include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 #include "tests/catch.h"
 #include "tests/common/trees.h"
@@ -159,14 +160,16 @@ TEST_CASE("mesher: a lateral's collar begins within its parent's facets and flow
       const Mesh mesh = build_mesh(s, {.root_flare = 0.0});
       const Mesh trunk = build_mesh(pole_of_width(4, 0.2), {.root_flare = 0.0});
       INFO(angle_deg << " degrees, " << diameter << " m");
-      // The trunk comes first; a lateral's first ring belongs to its parent's node.
+      // The trunk comes first, then the collar's first ring; a ring ends where u is 1.
       std::size_t feet = 0;
-      for (std::size_t v = trunk.vertex_count(); v < mesh.vertex_count() && mesh.internodes[v] == 2; ++v) {
+      for (std::size_t v = trunk.vertex_count(); v < mesh.vertex_count(); ++v) {
         ++feet;
         const Vec3f& p = mesh.positions[v];
+        CHECK(mesh.internodes[v] > 4);
         CHECK(std::hypot(p.x, p.z) < 0.1 * std::cos(std::numbers::pi / 12));
         CHECK(std::hypot(p.x, p.z) > 0.09);
         CHECK(glm::dot(mesh.normals[v], Vec3f(p.x, 0, p.z) / std::hypot(p.x, p.z)) > 0.999f);
+        if (mesh.uvs[v].x == 1.0f) break;
       }
       CHECK(feet >= 4);
       for (std::size_t v = trunk.vertex_count() + feet; v < mesh.vertex_count(); ++v) {
@@ -276,6 +279,35 @@ TEST_CASE("mesher: vertices show an attribute of their internode, or it is said 
   CHECK(build_mesh(tree, {}).colors.empty());
   CHECK_THROWS_WITH(build_mesh(pole(2), {.color_by = "light"}),
                     "mesher.color_by: the tree has no attribute 'light' (it has order, strahler, width)");
+}
+
+TEST_CASE("mesher: wood that shows an attribute is not dressed in bark") {
+  const Skeleton tree = random_tree(3, 300);
+  Looks looks;
+  looks.mesher.color_by = "order";
+  looks.leaves = {};
+  const Mesh mesh = make_tree_mesh(tree, looks, 1).mesh;
+  const std::vector<Color> colors = attribute_colors(tree, "order");
+  std::size_t wrong = 0;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    wrong += mesh.colors[v] != color_bytes(colors[mesh.internodes[v]]);
+  }
+  CHECK(wrong == 0);
+  CHECK(mesh.materials.at(0).color == Vec3f(1.0f));
+  CHECK(mesh.materials.at(0).image.is_empty());
+}
+
+TEST_CASE("mesher: all corners of a triangle belong to one axis, so that its texture does not jump") {
+  const Skeleton tree = random_tree(7, 500);
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+    const Mesh mesh = build_mesh(tree, {.method = method});
+    std::size_t wrong = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const auto axis = [&](std::uint32_t vertex) { return tree.axis[mesh.internodes[vertex]]; };
+      wrong += axis(a) != axis(b) || axis(a) != axis(c);
+    }
+    CHECK(wrong == 0);
+  }
 }
 
 TEST_CASE("mesher: a curve through the nodes has many rings in bends and few where it is straight") {
