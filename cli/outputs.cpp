@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/analysis/metrics.h"
 #include "common/base/errors.h"
 #include "common/base/image.h"
 #include "common/format/layer_files.h"
@@ -69,6 +70,15 @@ Image picture(const Results& results) {
   return renderer.render({.mesh = &results.tree.mesh, .skeleton = &results.run.skeleton}, {});
 }
 
+std::vector<std::pair<std::string, double>> metrics_of(const Skeleton& skeleton) {
+  const Metrics metrics = measure(skeleton);
+  std::vector<std::pair<std::string, double>> values;
+  for (const MetricInfo& info : metric_table()) {
+    if (const auto value = info.value(metrics)) values.emplace_back(info.key, *value);
+  }
+  return values;
+}
+
 }  // namespace
 
 bool Output::needs_mesh() const {
@@ -116,7 +126,10 @@ Output output_of(const std::string& path) {
 }
 
 void write_output(const Output& output, const Results& results, OutputFiles& files) {
-  const Provenance provenance = provenance_of(results.job);
+  Provenance provenance = provenance_of(results.job);
+  if (output.form == OutputForm::glb || output.form == OutputForm::gltf) {
+    provenance.metrics = metrics_of(results.run.skeleton);
+  }
   const fs::path& path = output.path;
   switch (output.form) {
     case OutputForm::glb:

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ramify {
 
@@ -12,6 +14,8 @@ struct Provenance {
   std::uint64_t seed = 0;
   int steps = 0;
   std::string config;  // the complete config as TOML
+  /// Those that the tree defines, by key; only where a file carries them.
+  std::vector<std::pair<std::string, double>> metrics = {};
 };
 
 /// This program's version, "0.1.0".

@@ -275,6 +275,9 @@ tinygltf::Value extras_of(const Provenance& provenance) {
   origin["seed"] = tinygltf::Value(std::to_string(provenance.seed));
   origin["steps"] = tinygltf::Value(provenance.steps);
   origin["config"] = tinygltf::Value(provenance.config);
+  tinygltf::Value::Object metrics;
+  for (const auto& [key, value] : provenance.metrics) metrics[key] = tinygltf::Value(value);
+  if (!metrics.empty()) origin["metrics"] = tinygltf::Value(metrics);
   return tinygltf::Value(tinygltf::Value::Object{{"ramify", tinygltf::Value(origin)}});
 }
 

@@ -24,7 +24,7 @@ TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint6
   if (!looks.leaves.is_on()) return tree;
 
   const LeafModel model = leaf_model(looks.leaves);
-  const std::vector<Leaf> leaves = place_leaves(skeleton, looks.leaves, seed);
+  const std::vector<Leaf> leaves = place_leaves(skeleton, looks.leaves, seed, looks.mesher.lod);
   append_leaves(tree.mesh, model, leaves);
   tree.leaf_count = leaves.size();
   tree.leaf_area = total_area(model, leaves);

@@ -201,3 +201,18 @@ TEST_CASE("stats: what is wrong is one line") {
   CHECK(none.code == 2);
   CHECK(none.err.find("input is required") != std::string::npos);
 }
+
+TEST_CASE("stats: a glTF file carries the metrics of its tree") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  REQUIRE(run_program("generate s4-fig8 -o a.gltf --quiet", where).code == 0);
+  const ordered_json file = ordered_json::parse(read_file(folder.file("a.gltf")));
+  const ordered_json carried = file["asset"]["extras"]["ramify"]["metrics"];
+  const ordered_json printed = ordered_json::parse(run_program("stats s4-fig8 --json").out);
+  CHECK(carried.size() > 25);
+  for (const auto& [key, value] : carried.items()) {
+    INFO(key);
+    CHECK(value.get<double>() == Approx(printed[key].get<double>()));
+  }
+  CHECK_FALSE(carried.contains("crown_volume"));  // a flat tree has none
+}

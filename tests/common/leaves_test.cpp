@@ -224,6 +224,11 @@ TEST_CASE("leaves: a coarser level has fewer and larger ones, of about the same 
     return sum;
   };
   CHECK(area(coarse) == Approx(area(fine)).epsilon(0.05));
+
+  Looks looks;
+  looks.leaves = options;
+  looks.mesher.lod = 2;
+  CHECK(make_tree_mesh(tree, looks, 1).leaf_count == coarse.size());
 }
 
 TEST_CASE("leaves: a tree's mesh tells of each leaf vertex which internode bears it, and reports the area") {
