@@ -48,7 +48,7 @@ class TubeWriter {
     tube_ = &tube;
     collect_knots(plan_, tube, knots_);
     Fork fork;
-    if (!tube.is_closed) {
+    if (tube.collar > 0) {
       fork = fork_at(plan_, tube);
       move_base(fork);
     }
@@ -70,7 +70,7 @@ class TubeWriter {
   void move_base(const Fork& fork) {
     knots_[0].position = fork.center;
     measure(knots_);
-    if (tube_->collar > 0) knots_[1].room *= kRoomBesideCollar;
+    knots_[1].room *= kRoomBesideCollar;
   }
 
   void set_vertex(std::size_t vertex, const Vec3& position, const Vec3& normal, double u, double v,
@@ -232,14 +232,21 @@ class TubeWriter {
       length = kTipLength * last.radius;
     }
     const std::size_t ring = vertex_ - (sides + 1);
-    const Vec3 apex = last.position + along_ * length;
-    const double v = v_ + length / (2.0 * std::numbers::pi * last.radius);
+    const Vec3f apex(last.position + along_ * length);
+    const auto v = static_cast<float>(v_ + length / (2.0 * std::numbers::pi * last.radius));
+    // Between the sides, and half forwards unless the tip is as slim as its branch.
+    const Vec3 across = glm::cross(along_, side_);
+    const double share = tube_->is_pointed ? 1.0 : std::numbers::sqrt2 / 2.0;
+    const Vec3f forwards(along_ * (tube_->is_pointed ? 0.0 : share));
+    const Vec3f side_normal(side_ * share);
+    const Vec3f across_normal(across * share);
+    const Vec2f* middles = unit_circle(2 * sides) + 1;
     for (std::uint32_t i = 0; i < sides; ++i) {
-      const Vec3 between = Vec3(mesh_.normals[ring + i]) + Vec3(mesh_.normals[ring + i + 1]);
-      const Vec3 sideways = normalized_or(between, along_);
       add_triangle(ring + i, ring + i + 1, vertex_);
-      set_vertex(vertex_++, apex, tube_->is_pointed ? sideways : sideways + along_, (i + 0.5) / sides, v,
-                 last.node);
+      mesh_.positions[vertex_] = apex;
+      mesh_.normals[vertex_] = forwards + side_normal * middles[2 * i].x + across_normal * middles[2 * i].y;
+      mesh_.uvs[vertex_] = {(static_cast<float>(i) + 0.5f) / static_cast<float>(sides), v};
+      mesh_.internodes[vertex_++] = last.node;
     }
   }
 

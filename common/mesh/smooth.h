@@ -9,10 +9,10 @@
 
 namespace ramify {
 
-/// A lateral's tube begins inside its parent's surface with a collar that flows over into it; a trunk's foot
-/// flares and is closed flat, tips are rounded or, on twigs, pointed. A collar is its lateral's. A skeleton
-/// without internodes gives an empty mesh. O(n), on all threads; no more than the mesh itself and a few bytes
-/// a node are held. Throws InputError where the budget of triangles is too small.
+/// A lateral's tube begins inside its parent's surface with a collar that flows over into it, but for thin
+/// twigs; a trunk's foot flares and is closed flat, tips are rounded or, on twigs, pointed. A collar is its
+/// lateral's. A skeleton without internodes gives an empty mesh. O(n), on all threads; no more than the mesh
+/// itself and a few bytes a node are held. Throws InputError where the budget of triangles is too small.
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options);
 
 /// The same with a tolerance of one's own: no wood is farther than five times as far from the mesh, metres.

@@ -22,6 +22,10 @@ constexpr std::size_t kLookBack = 64;
 // A trunk that leans more than this, as a cosine, has no foot that stands on the ground.
 constexpr double kLeastUpright = 0.3;
 
+// Of the thickest wood: thinner twigs, which have three sides, just begin inside their parents. They are most
+// of a tree, and a collar takes as long as the rest of a twig.
+constexpr double kLeastCollar = 0.03;
+
 // In radii of a lateral: its first knot is so far outside its parent, so that its collar has room.
 constexpr double kClear = 1.2;
 
@@ -124,7 +128,8 @@ class Planner {
     choose_knots(tube, knots);
     if (knots.back().length <= plan_.thinnest && knots.size() == 2) return;  // a point
     const double radius = plan_.radius(tube.first);
-    const bool is_seen = plan_.tolerance <= 0.0 || radius > 2.0 * plan_.tolerance;
+    const double seen = std::max(2.0 * plan_.tolerance, 0.5 * kLeastCollar * greatest_);
+    const bool is_seen = radius > seen;
     if (!tube.is_closed && is_seen && knots[1].length > plan_.radius(tube.base) + 0.5 * radius) {
       tube.collar = collar_stretches(tube.sides);
       knots[1].room *= kRoomBesideCollar;

@@ -55,7 +55,7 @@ struct TubePlan {
 /// size. Without one nothing goes but nodes that crowd. O(n), on all threads.
 TubePlan plan_tubes(const Skeleton& skeleton, const MesherOptions& options, double tolerance = 0.0);
 
-/// The knots of a tube that is not left out, measured; a lateral's begin at its fork's center.
+/// The knots of a tube that is not left out, measured; a lateral's begin at its parent's node.
 void collect_knots(const TubePlan& plan, const Tube& tube, std::vector<Knot>& knots);
 
 /// The parent's wood where a lateral leaves it.
