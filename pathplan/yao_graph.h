@@ -13,7 +13,7 @@
 namespace ramify::pathplan {
 
 /// Undirected edges, each once, from each node to the nearest one in each sector that the rules allow and
-/// that is no farther than they say; equal distances, to a part in 10^12: the lower number.
+/// that is no farther than they say; equal distances, to a part in 10^13: the lower number.
 /// `sectors`: 8, octants by the signs of the difference, 0 counting as +; 6, cones over the faces of a cube,
 /// by the coordinate that is largest in magnitude (the first of equal ones) and its sign; or 14, to the faces
 /// and corners of a cube, whichever is nearest by angle (a face rather than a corner).

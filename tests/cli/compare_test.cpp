@@ -70,14 +70,6 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
-void check_failure(const Outcome& outcome, int code, const std::string& message) {
-  INFO(outcome.err);
-  CHECK(outcome.code == code);
-  CHECK(outcome.err.rfind("ramify: " + message, 0) == 0);
-  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-  CHECK(outcome.out.empty());
-}
-
 bool has_gnuplot() {
   return run_shell("command -v gnuplot").code == 0;
 }

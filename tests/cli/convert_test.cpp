@@ -17,14 +17,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-void check_failure(const Outcome& outcome, int code, const std::string& message) {
-  INFO(outcome.err);
-  CHECK(outcome.code == code);
-  CHECK(outcome.err.rfind("ramify: " + message, 0) == 0);
-  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-  CHECK(outcome.out.empty());
-}
-
 }  // namespace
 
 TEST_CASE("convert: from every form to every form and back to the same table") {

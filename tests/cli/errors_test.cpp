@@ -14,19 +14,6 @@ using namespace ramify::test;
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// One line on stderr that begins with `ramify: ` and the message, nothing on stdout.
-void check_failure(const Outcome& outcome, int code, const std::string& message) {
-  INFO(outcome.err);
-  CHECK(outcome.code == code);
-  CHECK(outcome.err.rfind("ramify: " + message, 0) == 0);
-  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-  CHECK(outcome.out.empty());
-}
-
-}  // namespace
-
 TEST_CASE("errors: bad configs are one line with file, line and key, exit code 2 and no file") {
   const Folder folder;
   const std::string where = folder.path().string();

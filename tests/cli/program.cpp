@@ -2,10 +2,11 @@
 
 #include <sys/wait.h>
 
-#include <cstdlib>
+#include <algorithm>
 #include <fstream>
 
 #include "common/base/files.h"
+#include "tests/catch.h"
 #include "tests/folder.h"
 
 namespace ramify::test {
@@ -29,6 +30,14 @@ Outcome run_shell(const std::string& command, const std::string& folder) {
 
 Outcome run_program(const std::string& arguments, const std::string& folder, const std::string& prefix) {
   return run_shell(prefix + "'" + program_path() + "' " + arguments, folder);
+}
+
+void check_failure(const Outcome& outcome, int code, const std::string& message) {
+  INFO(outcome.err);
+  CHECK(outcome.code == code);
+  CHECK(outcome.err.rfind("ramify: " + message, 0) == 0);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(outcome.out.empty());
 }
 
 }  // namespace ramify::test

@@ -15,6 +15,10 @@ struct Outcome {
 Outcome run_program(const std::string& arguments, const std::string& folder = ".",
                     const std::string& prefix = "");
 
+/// Checks that the program ended with `code` and said one line on stderr, which begins with `ramify: ` and
+/// the message, and nothing on stdout.
+void check_failure(const Outcome& outcome, int code, const std::string& message);
+
 /// The program's path, for commands that do more than run it.
 std::string program_path();
 
