@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <stop_token>
+#include <string>
 
 #include "common/config/engine.h"
 
@@ -16,7 +17,8 @@ class Interrupted {};
 /// What all commands share.
 struct Session {
   EngineRegistry registry;
-  std::stop_token stop;  // requested by Ctrl-C
+  std::stop_token stop;      // requested by Ctrl-C
+  std::string command_line;  // as it was typed, ready to be typed again
 };
 
 void add_generate(CLI::App& program, const Session& session);
