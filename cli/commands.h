@@ -11,8 +11,10 @@
 
 namespace ramify::cli {
 
-/// Ctrl-C: main() exits with 130.
-class Interrupted {};
+/// Ctrl-C: main() says what has become of the outputs and exits with 130.
+struct Interrupted {
+  std::string outcome = "nothing written";
+};
 
 /// What all commands share.
 struct Session {
@@ -25,6 +27,8 @@ void add_generate(CLI::App& program, const Session& session);
 void add_render(CLI::App& program, const Session& session);
 void add_stats(CLI::App& program, const Session& session);
 void add_compare(CLI::App& program, const Session& session);
+void add_sweep(CLI::App& program, const Session& session);
+void add_sweep_run(CLI::App& program, const Session& session);
 void add_convert(CLI::App& program);
 void add_presets(CLI::App& program);
 void add_params(CLI::App& program, const Session& session);
