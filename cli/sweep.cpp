@@ -77,9 +77,8 @@ void check_flags(const SweepFlags& flags) {
     throw InputError("--sbatch-options: is more than a line");
   }
   const bool is_from_folder = flags.collects && flags.config.empty() && flags.axes.empty();
-  if (!is_from_folder && flags.config.empty())
-    throw InputError("sweep: CONFIG is missing (a preset or a TOML file)");
-  if (!is_from_folder && flags.axes.empty()) throw InputError("--vary: is missing (KEY=LIST)");
+  if (!is_from_folder && flags.config.empty()) throw InputError("config is required");
+  if (!is_from_folder && flags.axes.empty()) throw InputError("--vary is required");
 }
 
 /// Makes the runs that are not finished. Throws Interrupted after Ctrl-C.

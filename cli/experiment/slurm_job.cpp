@@ -38,8 +38,7 @@ std::string script_text(const fs::path& sweep, const fs::path& folder, std::size
   text += fmt::format(
       "exec {} sweep-task {} -o {} --slice \"$SLURM_ARRAY_TASK_ID\" --slices {} "
       "--threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
-      shell_quoted(program), shell_quoted((folder / kPlan).string()), shell_quoted((sweep / "runs").string()),
-      slices);
+      shell_quoted(program), shell_quoted((folder / kPlan).string()), shell_quoted(sweep.string()), slices);
   return text;
 }
 
