@@ -15,6 +15,7 @@ namespace ramify::pathplan {
 struct Engine {
   using Parameters = pathplan::Parameters;
   static constexpr std::string_view name = "pathplan";
+  static constexpr bool has_history = false;
   static std::vector<std::string> layers(const Parameters& parameters);
 
   /// How many levels are planned.
