@@ -64,18 +64,12 @@ bool is_config(const std::string& input) {
 }
 
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
-    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
-                                 input, skeleton_endings()));
-  }
   return read_grown(input, flags, session).skeleton;
 }
 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
-    refuse(flags.configuring.overrides(), input);
+  if (is_mesh(input) && flags.configuring.overrides().empty() && !flags.at_step) {
     if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
-    if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
     return {std::nullopt, read_gltf(read_file(input), input)};
   }
   Grown grown = read_grown(input, flags, session);

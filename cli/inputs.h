@@ -31,11 +31,13 @@ Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, 
 /// Whether the input is a preset's name or a config file: what no other ending tells of.
 bool is_config(const std::string& input);
 
-/// The skeleton of a config or a skeleton file, alive at the step asked for. Throws InputError for a mesh,
-/// and for flags that do not go with the kind of input.
+/// The skeleton of a config, a skeleton file or, made again from the config inside, a mesh of ramify's; alive
+/// at the step asked for. Throws InputError for other meshes, and for flags that do not go with the kind of
+/// input.
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session);
 
-/// Reads, or makes, one tree. Throws InputError for flags that do not go with the kind of input.
+/// Reads, or makes, one tree. A mesh is shown as it is in its file, unless flags ask for another tree of its
+/// config. Throws InputError for flags that do not go with the kind of input.
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session);
 
 }  // namespace ramify::cli
