@@ -136,7 +136,8 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
 
   ViewDirection view = options.view;
   view.is_parallel = view.is_parallel || options.style != RenderStyle::lit;
-  Framer framer(view, static_cast<double>(options.width) / options.height, kMargin);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  Framer framer(view, aspect, kMargin);
   include_scene(scene, options.style, framer);
   for (const Vec3f& point : options.room_for) framer.include(Vec3(point));
   if (options.with_scale) {
@@ -154,7 +155,9 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
     painter.cast_shadows(scene, sun_behind(view), shadow_map_size(options, most));
   }
 
-  const Camera camera = framer.camera(painter.ground_reach());
+  const Camera camera = options.close_up ? close_up_camera(view, aspect, *options.close_up,
+                                                           framer.extent().low.z - painter.ground_reach())
+                                         : framer.camera(painter.ground_reach());
   Image image = implementation_->draw(camera, options);
   require_no_gl_error("drawing the picture");
   return image;
