@@ -10,6 +10,7 @@
 #include "common/config/job.h"
 #include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
@@ -27,11 +28,10 @@ bool is_mesh(const std::string& input) {
   return ending == ".glb" || ending == ".gltf";
 }
 
-/// A skeleton and how its config wants it dressed.
+/// A skeleton and the config that made it, if one did.
 struct Grown {
   Skeleton skeleton;
-  Looks looks;
-  std::uint64_t seed = 0;
+  std::optional<Job> job = {};
 };
 
 Grown read_grown(const std::string& input, const InputFlags& flags, const Session& session) {
@@ -40,15 +40,15 @@ Grown read_grown(const std::string& input, const InputFlags& flags, const Sessio
     refuse(overrides, input);
     SkeletonFile file = read_skeleton(input, flags.skeleton);
     if (!flags.running.is_quiet) note(file.notes);
-    return {living_at(file.skeleton, flags.at_step, input), {}, 0};
+    return {living_at(file.skeleton, flags.at_step, input)};
   }
   if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
-  const Job job = load_job(session.registry, input, overrides);
+  Job job = load_job(session.registry, input, overrides);
   RunContext context;
   context.stop = session.stop;
   context.wants_history = flags.at_step.has_value();
   RunResult run = run_with_progress(job, context, flags.running);
-  return {living_at(run.skeleton, flags.at_step, input), job.looks(), job.seed()};
+  return {living_at(run.skeleton, flags.at_step, input), std::move(job)};
 }
 
 }  // namespace
@@ -81,7 +81,9 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
   Grown grown = read_grown(input, flags, session);
   const ThreadLimit limit(flags.running.threads);
   Tree tree;
-  tree.mesh = make_tree_mesh(grown.skeleton, grown.looks, grown.seed).mesh;
+  const std::optional<Job>& job = grown.job;
+  tree.mesh = make_tree_mesh(grown.skeleton, job ? job->looks() : Looks(), job ? job->seed() : 0).mesh;
+  if (job) tree.obstacles = obstacle_mesh(*job);
   for (const std::string& warning : tree.mesh.warnings) warn(warning);
   tree.skeleton = std::move(grown.skeleton);
   return tree;

@@ -16,6 +16,7 @@ namespace ramify::cli {
 struct Tree {
   std::optional<Skeleton> skeleton;
   Mesh mesh;
+  Mesh obstacles = {};  // of a config
 };
 
 struct InputFlags {

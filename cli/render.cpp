@@ -75,8 +75,10 @@ void render(RenderFlags flags, const Session& session) {
   std::vector<Image> images;
   for (const std::string& input : flags.inputs) {
     const Tree tree = read_tree(input, flags.reading, session);
-    images.push_back(renderer.render(
-        {.mesh = &tree.mesh, .skeleton = tree.skeleton ? &*tree.skeleton : nullptr}, options));
+    const Scene scene{.mesh = &tree.mesh,
+                      .skeleton = tree.skeleton ? &*tree.skeleton : nullptr,
+                      .obstacles = &tree.obstacles};
+    images.push_back(renderer.render(scene, options));
     if (session.stop.stop_requested()) throw Interrupted();
   }
   const std::size_t columns = flags.columns > 0 ? static_cast<std::size_t>(flags.columns) : images.size();

@@ -26,6 +26,19 @@ constexpr int kPartStep = 8;
 // Free at each edge of the picture, in parts of it.
 constexpr double kMargin = 0.05;
 
+void include_obstacles(const Scene& scene, Framer& framer) {
+  Box tree;
+  if (scene.mesh != nullptr) {
+    for (const Vec3f& position : scene.mesh->positions) tree.include(Vec3(position));
+  }
+  const Box room = obstacle_room(*scene.obstacles, tree);
+  if (room.is_empty()) return;
+  for (int corner = 0; corner < 8; ++corner) {
+    framer.include({corner & 1 ? room.high.x : room.low.x, corner & 2 ? room.high.y : room.low.y,
+                    corner & 4 ? room.high.z : room.low.z});
+  }
+}
+
 void include_scene(const Scene& scene, RenderStyle style, Framer& framer) {
   if (style != RenderStyle::skeleton && scene.mesh != nullptr) {
     for (const Vec3f& position : scene.mesh->positions) framer.include(Vec3(position));
@@ -33,6 +46,7 @@ void include_scene(const Scene& scene, RenderStyle style, Framer& framer) {
   if (scene.skeleton != nullptr && (style == RenderStyle::skeleton || framer.extent().is_empty())) {
     for (const Vec3& position : scene.skeleton->position) framer.include(position);
   }
+  if (scene.obstacles != nullptr) include_obstacles(scene, framer);
 }
 
 /// Pixels of the parts that a side of the picture is cut into.
@@ -154,7 +168,7 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
     painter.cast_shadows(scene, sun_behind(view), shadow_map_size(options, most));
   }
 
-  const Camera camera = framer.camera(painter.ground_reach());
+  const Camera camera = framer.camera(painter.reach());
   Image image = implementation_->draw(camera, options);
   require_no_gl_error("drawing the picture");
   return image;
