@@ -170,6 +170,8 @@ std::optional<double> Document::due_in(double now) const {
   return std::max(0.0, *fine_due_ - now);
 }
 
+  // The last tree's, until the fine one is measured.
+  if (!made->numbers && product_) made->numbers = product_->numbers;
 std::string generate_command(const Document& document) {
   const Job& job = document.job();
   std::string command;

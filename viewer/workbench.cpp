@@ -129,7 +129,7 @@ double tend(Workbench& bench) {
     if (const auto due = seat->document.due_in(now)) wait = std::min(wait, *due);
   }
   finish_writing(bench);
-  if (bench.writing.valid()) wait = std::min(wait, 0.1);
+  if (bench.writing.valid() || bench.distances.is_busy()) wait = std::min(wait, 0.1);
   if (bench.is_moving()) wait = std::min(wait, bench.last_motion + kRest - now);
   return std::max(wait, 0.001);
 }
