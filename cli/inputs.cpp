@@ -28,29 +28,6 @@ bool is_mesh(const std::string& input) {
   return ending == ".glb" || ending == ".gltf";
 }
 
-/// A skeleton and the config that made it, if one did.
-struct Grown {
-  Skeleton skeleton;
-  std::optional<Job> job = {};
-};
-
-Grown read_grown(const std::string& input, const InputFlags& flags, const Session& session) {
-  const std::vector<Override> overrides = flags.configuring.overrides();
-  if (is_skeleton_file(input)) {
-    refuse(overrides, input);
-    SkeletonFile file = read_skeleton(input, flags.skeleton);
-    if (!flags.running.is_quiet) note(file.notes);
-    return {living_at(file.skeleton, flags.at_step, input)};
-  }
-  if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
-  Job job = load_job(session.registry, input, overrides);
-  RunContext context;
-  context.stop = session.stop;
-  context.wants_history = flags.at_step.has_value();
-  RunResult run = run_with_progress(job, context, flags.running);
-  return {living_at(run.skeleton, flags.at_step, input), std::move(job)};
-}
-
 }  // namespace
 
 Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input) {
@@ -59,16 +36,35 @@ Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, 
   return cut_at_step(skeleton, *step);
 }
 
+Grown read_grown(const std::string& input, const InputFlags& flags, bool with_history,
+                 const Session& session) {
+  if (is_mesh(input)) {
+    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
+                                 input, skeleton_endings()));
+  }
+  const std::vector<Override> overrides = flags.configuring.overrides();
+  if (is_skeleton_file(input)) {
+    refuse(overrides, input);
+    SkeletonFile file = read_skeleton(input, flags.skeleton);
+    if (!flags.running.is_quiet) note(file.notes);
+    return {std::move(file.skeleton)};
+  }
+  if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
+  const Job job = load_job(session.registry, input, overrides);
+  RunContext context;
+  context.stop = session.stop;
+  context.wants_history = with_history;
+  RunResult run = run_with_progress(job, context, flags.running);
+  return {std::move(run.skeleton), job.looks(), job.seed(), obstacle_mesh(job)};
+}
+
 bool is_config(const std::string& input) {
   return !is_mesh(input) && !is_skeleton_file(input);
 }
 
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
-    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
-                                 input, skeleton_endings()));
-  }
-  return read_grown(input, flags, session).skeleton;
+  const Grown grown = read_grown(input, flags, flags.at_step.has_value(), session);
+  return living_at(grown.skeleton, flags.at_step, input);
 }
 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
@@ -78,14 +74,13 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
     if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
     return {std::nullopt, read_gltf(read_file(input), input)};
   }
-  Grown grown = read_grown(input, flags, session);
-  const ThreadLimit limit(flags.running.threads);
+  Grown grown = read_grown(input, flags, flags.at_step.has_value(), session);
   Tree tree;
-  const std::optional<Job>& job = grown.job;
-  tree.mesh = make_tree_mesh(grown.skeleton, job ? job->looks() : Looks(), job ? job->seed() : 0).mesh;
-  if (job) tree.obstacles = obstacle_mesh(*job);
+  tree.skeleton = living_at(grown.skeleton, flags.at_step, input);
+  const ThreadLimit limit(flags.running.threads);
+  tree.mesh = make_tree_mesh(*tree.skeleton, grown.looks, grown.seed).mesh;
   for (const std::string& warning : tree.mesh.warnings) warn(warning);
-  tree.skeleton = std::move(grown.skeleton);
+  tree.obstacles = std::move(grown.obstacles);
   return tree;
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 std::string limit_warning(const Parameters& parameters, const Simulation& simulation) {
   return fmt::format(
-      "stopped after step {} of {} with {} internodes: the next step would make more than "
-      "growth.max_internodes = {}",
-      simulation.step(), parameters.steps, simulation.internode_count(), parameters.max_internodes);
+      "stopped after step {} with {} internodes: the next step would make more than growth.max_internodes = "
+      "{}",
+      simulation.step(), simulation.internode_count(), parameters.max_internodes);
 }
 
 Skeleton skeleton_of(std::vector<GrowingTree> trees, const Parameters& parameters) {

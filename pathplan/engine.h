@@ -15,6 +15,7 @@ namespace ramify::pathplan {
 struct Engine {
   using Parameters = pathplan::Parameters;
   static constexpr std::string_view name = "pathplan";
+  static constexpr bool has_history = false;
   static std::vector<std::string> layers(const Parameters& parameters);
 
   /// Those of level 1 and of the surroundings: later levels' are about each of their endpoints anew.

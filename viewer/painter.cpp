@@ -95,12 +95,10 @@ glm::mat4 moved(const glm::dmat4& world_to_clip, const Vec3& origin) {
   return glm::mat4(glm::translate(world_to_clip, origin));
 }
 
-/// Metres of the longest side of the mesh's box; 0 for none.
-double longest_side(const Mesh* mesh) {
+/// Metres of the longest side of the points' box; 0 for none.
+double longest_side(std::span<const Vec3f> points) {
   Box box;
-  if (mesh != nullptr) {
-    for (const Vec3f& position : mesh->positions) box.include(Vec3(position));
-  }
+  for (const Vec3f& point : points) box.include(Vec3(point));
   if (box.is_empty()) return 0.0;
   return std::max({box.size().x, box.size().y, box.size().z});
 }
@@ -226,7 +224,8 @@ void Painter::load_sky_light(const Scene& scene) {
   double size = 1.0;
   if (sky.visibility.empty()) {
     // What the box of the sky's light would measure.
-    if (const double side = longest_side(scene.mesh); side > 0.0) size = 1.3 * side;
+    const double side = scene.mesh != nullptr ? longest_side(scene.mesh->positions) : 0.0;
+    if (side > 0.0) size = 1.3 * side;
     sky.box = {base_, base_ + 1.0};
     sky.size = Coord(1);
     sky.visibility = {255};
@@ -234,7 +233,8 @@ void Painter::load_sky_light(const Scene& scene) {
     const Vec3 extent = sky.box.size();
     size = std::max({extent.x, extent.y, extent.z});
   }
-  ground_reach_ = kGroundReach * size;
+  // Trees drawn to one scale stand on one ground.
+  ground_reach_ = kGroundReach * std::max(size, longest_side(options_.room_for));
   world_to_sky_ = glm::mat4(glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / sky.box.size()), -sky.box.low));
 
   bind_texture(kSkyUnit, GL_TEXTURE_3D, sky_visibility_);

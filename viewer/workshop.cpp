@@ -42,17 +42,8 @@ Looks looks_of(const Order& order) {
 /// After the step that `at` names, or up to the level where the tree has levels; the whole tree where it has
 /// neither.
 Skeleton shown_part(const Skeleton& whole, std::optional<std::uint32_t> at) {
-  if (!at) return living(whole);
-  if (!whole.birth_step.empty()) return cut_at_step(whole, *at);
-  if (!whole.level.empty()) return cut_at_level(whole, *at);
-  return living(whole);
-}
-
-std::uint32_t last_step(const Skeleton& tree) {
-  std::uint32_t last = 0;
-  for (const std::uint32_t step : tree.birth_step) last = std::max(last, step);
-  for (const std::uint16_t level : tree.level) last = std::max<std::uint32_t>(last, level);
-  return last;
+  const bool has_parts = !whole.birth_step.empty() || !whole.level.empty();
+  return at && has_parts ? cut_at(whole, *at) : living(whole);
 }
 
 }  // namespace

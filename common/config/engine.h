@@ -68,12 +68,13 @@ struct UsedVolumes {
 
 /// An engine. `seed` and `steps` are members of its Parameters and rows of its table (is_top_level).
 /// The other rows stand in the config's table that has the engine's name. steps() is how many steps, or
-/// levels, a run will take; layers() names the layers it can make, volumes() the volumes it uses. check()
-/// throws ConfigError for what no single range can say, with keys below the engine's table, and returns
-/// warnings.
+/// levels, a run will take; has_history says whether a run that wants_history can be cut at any step
+/// (cut_at_step); layers() names the layers it can make, volumes() the volumes it uses. check() throws
+/// ConfigError for what no single range can say, with keys below the engine's table, and returns warnings.
 template <class E>
 concept TreeEngine = requires(const typename E::Parameters& parameters, const RunContext& context) {
   { E::name } -> std::convertible_to<std::string_view>;
+  { E::has_history } -> std::convertible_to<bool>;
   { E::layers(parameters) } -> std::same_as<std::vector<std::string>>;
   { E::Parameters::fields() } -> std::same_as<const Table&>;
   { E::volumes(parameters) } -> std::same_as<UsedVolumes>;
@@ -85,6 +86,7 @@ concept TreeEngine = requires(const typename E::Parameters& parameters, const Ru
 /// An engine with its types erased; parameters go by address.
 struct AnyEngine {
   std::string name;
+  bool has_history = false;
   Table top_fields;  // rows that stand at the top of a config: seed, steps
   Table fields;      // the others, in the table that has the engine's name
   std::function<std::shared_ptr<void>()> make_parameters;
@@ -104,6 +106,7 @@ class EngineRegistry {
     using P = typename E::Parameters;
     AnyEngine engine;
     engine.name = E::name;
+    engine.has_history = E::has_history;
     engine.layers = [](const void* p) { return E::layers(*static_cast<const P*>(p)); };
     engine.volumes = [](const void* p) { return E::volumes(*static_cast<const P*>(p)); };
     for (const FieldRow& row : P::fields()) {

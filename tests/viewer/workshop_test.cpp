@@ -25,6 +25,7 @@ struct SlowEngine {
     }
   };
   static constexpr std::string_view name = "slow";
+  static constexpr bool has_history = false;
   static inline std::atomic<int> stopped = 0;
   static std::vector<std::string> layers(const Parameters&) { return {}; }
   static UsedVolumes volumes(const Parameters&) { return {}; }

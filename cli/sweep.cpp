@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+#include <sys/prctl.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/experiment/sweep_folder.h"
+#include "cli/experiment/sweep_plan.h"
+#include "cli/experiment/sweep_pool.h"
+#include "cli/experiment/sweep_results.h"
+#include "cli/experiment/sweep_run.h"
+#include "cli/experiment/value_list.h"
+#include "cli/flags.h"
+#include "cli/progress_bar.h"
+#include "cli/text.h"
+#include "common/base/errors.h"
+#include "common/base/parallel.h"
+
+namespace ramify::cli {
+namespace {
+
+constexpr const char* kExamples = R"(
+Examples:
+  ramify sweep s4-fig6 --vary steps=3:15:1 -o steps
+      thirteen trees out of one that grows for 15 steps
+  ramify sweep p09-fig7-50 --vary growth.lambda=0.46:0.54:0.02 --vary seed=1:8:1 -o lambda
+      40 trees; plots show the mean and spread of the eight seeds
+  ramify sweep s4-fig6 --vary growth.w_optimal=0,0.5,1 --vary growth.tropism.up.weight=0,0.3 -o map
+      every combination: heat maps
+  ramify sweep xm12-fig5 --vary 'pathplan.levels.1.weights=incremental,periodic' -o bends
+      words work, too; so do lists and tables in TOML: --vary 'growth.lambda=[[1,0.6],[8,0.5]],0.5'
+
+A range from:to:step includes `to`. The same command again goes on where it was interrupted; more values make
+only the runs that are new. Each run's folder, DIR/runs/NAME, has its complete config and its tree.)";
+
+struct SweepFlags {
+  std::string config;
+  std::vector<std::string> axes;
+  std::string folder;
+  ConfigFlags configuring;
+  RunFlags running;
+};
+
+std::string command_line(const SweepFlags& flags, const SweepPlan& plan) {
+  std::string text = "ramify sweep " + shell_quoted(flags.config);
+  for (const std::string& axis : flags.axes) text += " --vary " + shell_quoted(axis);
+  return text + plan.flags + " -o " + shell_quoted(flags.folder);
+}
+
+SweepPlan plan_of(const SweepFlags& flags, const Session& session) {
+  std::vector<Axis> axes;
+  for (const std::string& text : flags.axes) axes.push_back(axis_of(text));
+  SweepPlan plan = plan_sweep(session.registry, flags.config, flags.configuring.overrides(), axes);
+  plan.command = command_line(flags, plan);
+  return plan;
+}
+
+/// Makes the runs that are not finished. Throws Interrupted after Ctrl-C.
+void make_missing(const SweepPlan& plan, const SweepFolder& folder, const SweepFlags& flags,
+                  const Session& session) {
+  const std::vector<std::size_t> missing = unfinished(gather(plan, folder.runs()));
+  for (const std::size_t run : missing) forget_failure(folder.runs(), plan.runs[run].name);
+  ProgressBar bar(flags.running.is_quiet);
+  const PoolOptions options{folder.runs(), flags.running.threads, session.stop};
+  make_batches(plan, batches_of(plan, missing), options, [&](std::size_t made) {
+    bar.show({"sweep", static_cast<double>(made), static_cast<double>(missing.size()), "run"});
+  });
+  bar.clear();
+  if (!session.stop.stop_requested()) return;
+  const std::size_t done = gather(plan, folder.runs()).count_done();
+  throw Interrupted{fmt::format("{} of {} runs are made and kept; the same command goes on from there", done,
+                                plan.runs.size())};
+}
+
+void print_outcome(const SweepResults& results, const SweepFlags& flags, std::size_t made) {
+  const std::string table = (std::filesystem::path(flags.folder) / "results.csv").string();
+  if (flags.running.is_json) {
+    const nlohmann::ordered_json object = {{"runs", results.rows.size()},
+                                           {"done", results.count_done()},
+                                           {"failed", results.count_failed()},
+                                           {"made_now", made},
+                                           {"results", table}};
+    fmt::print("{}\n", object.dump());
+  } else if (!flags.running.is_quiet) {
+    fmt::print("{} runs, {} of them made now\n  {}\n", grouped(results.rows.size()), grouped(made), table);
+  }
+}
+
+void sweep(const SweepFlags& flags, const Session& session) {
+  const SweepPlan plan = plan_of(flags, session);
+  SweepFolder folder(flags.folder);
+  folder.lock();
+  folder.write(kPlanFile, plan_text(plan));
+  const std::size_t done_before = gather(plan, folder.runs()).count_done();
+  make_missing(plan, folder, flags, session);
+  const SweepResults results = gather(plan, folder.runs());
+  folder.write("results.csv", results_csv(results));
+  print_outcome(results, flags, results.count_done() - done_before);
+  const std::size_t failed = results.rows.size() - results.count_done();
+  if (failed > 0) {
+    throw RunError(fmt::format("{} of {} runs failed ({} says why)", failed, results.rows.size(),
+                               (folder.path() / "results.csv").string()));
+  }
+}
+
+struct SweepRunFlags {
+  std::string config;
+  std::string runs;
+  std::vector<int> at_steps;
+  RunFlags running;
+};
+
+void sweep_run(const SweepRunFlags& flags, const Session& session) {
+  // A sweep that is killed takes its runs along.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const ThreadLimit limit(flags.running.threads);
+  make_runs(load_job(session.registry, flags.config), flags.at_steps, flags.runs, session);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& program, const Session& session) {
+  auto flags = std::make_shared<SweepFlags>();
+  CLI::App* command = program.add_subcommand(
+      "sweep", "A run for each combination of values, gathered in one table and report");
+  command->footer(kExamples);
+  command->add_option("config", flags->config, "A preset (`ramify presets`) or a TOML file")
+      ->type_name("CONFIG")
+      ->required();
+  command
+      ->add_option("--vary", flags->axes,
+                   "Give a parameter these values, a,b,c or from:to:step; seed and steps, too (repeatable: "
+                   "every combination is made)")
+      ->type_name("KEY=LIST")
+      ->allow_extra_args(false)
+      ->required();
+  command->add_option("-o,--output", flags->folder, "Folder for the runs and what is gathered from them")
+      ->type_name("DIR")
+      ->required();
+  flags->configuring.add_to(*command);
+  flags->running.add_to(*command);
+  command->callback([flags, &session] { sweep(*flags, session); });
+}
+
+void add_sweep_run(CLI::App& program, const Session& session) {
+  auto flags = std::make_shared<SweepRunFlags>();
+  CLI::App* command = program.add_subcommand("sweep-run", "One run of a sweep, into its folder");
+  command->group("");  // for sweep alone
+  command->add_option("config", flags->config)->required();
+  command->add_option("-o,--output", flags->runs)->required();
+  command->add_option("--at-step", flags->at_steps)->allow_extra_args(false);
+  flags->running.add_to(*command);
+  command->callback([flags, &session] { sweep_run(*flags, session); });
+}
+
+}  // namespace ramify::cli
