@@ -10,6 +10,7 @@
 #include "common/config/job.h"
 #include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
@@ -42,7 +43,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, bool with_hi
     refuse(overrides, input);
     SkeletonFile file = read_skeleton(input, flags.skeleton);
     if (!flags.running.is_quiet) note(file.notes);
-    return {std::move(file.skeleton), {}, 0};
+    return {std::move(file.skeleton)};
   }
   if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
   const Job job = load_job(session.registry, input, overrides);
@@ -50,7 +51,7 @@ Grown read_grown(const std::string& input, const InputFlags& flags, bool with_hi
   context.stop = session.stop;
   context.wants_history = with_history;
   RunResult run = run_with_progress(job, context, flags.running);
-  return {std::move(run.skeleton), job.looks(), job.seed()};
+  return {std::move(run.skeleton), job.looks(), job.seed(), obstacle_mesh(job)};
 }
 
 bool is_config(const std::string& input) {
@@ -67,12 +68,13 @@ Tree read_tree(const std::string& input, const InputFlags& flags, const Session&
     if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
     return {std::nullopt, read_gltf(read_file(input), input)};
   }
-  const Grown grown = read_grown(input, flags, flags.at_step.has_value(), session);
+  Grown grown = read_grown(input, flags, flags.at_step.has_value(), session);
   Tree tree;
   tree.skeleton = living_at(grown.skeleton, flags.at_step, input);
   const ThreadLimit limit(flags.running.threads);
   tree.mesh = make_tree_mesh(*tree.skeleton, grown.looks, grown.seed).mesh;
   for (const std::string& warning : tree.mesh.warnings) warn(warning);
+  tree.obstacles = std::move(grown.obstacles);
   return tree;
 }
 

@@ -16,6 +16,7 @@ namespace ramify::cli {
 struct Tree {
   std::optional<Skeleton> skeleton;
   Mesh mesh;
+  Mesh obstacles = {};  // of a config
 };
 
 struct InputFlags {
@@ -28,8 +29,9 @@ struct InputFlags {
 /// A skeleton and how its config wants it dressed.
 struct Grown {
   Skeleton skeleton;
-  Looks looks;
+  Looks looks = {};
   std::uint64_t seed = 0;
+  Mesh obstacles = {};
 };
 
 /// What is alive after `step`, or at the end. Throws InputError if a step is asked for and `input` has none.

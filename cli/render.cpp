@@ -137,8 +137,10 @@ void render(RenderFlags flags, const Session& session) {
   std::vector<Image> images;
   for (const std::string& input : flags.inputs) {
     const Tree tree = read_tree(input, flags.reading, session);
-    images.push_back(renderer.render(
-        {.mesh = &tree.mesh, .skeleton = tree.skeleton ? &*tree.skeleton : nullptr}, options));
+    const Scene scene{.mesh = &tree.mesh,
+                      .skeleton = tree.skeleton ? &*tree.skeleton : nullptr,
+                      .obstacles = &tree.obstacles};
+    images.push_back(renderer.render(scene, options));
     if (session.stop.stop_requested()) throw Interrupted();
   }
   const Image picture = contact_sheet(images, flags.images_a_row());
