@@ -25,6 +25,9 @@ constexpr float kCellMargin = 0.05f;
 // A voxel outside the surface another part of it is near if the distance there is less than this.
 constexpr float kAlone = 0.6f;
 
+// So many edges from the border of a piece triangles may still change when pieces are joined.
+constexpr std::uint8_t kBorderSteps = 4;
+
 // Cosine of the greatest angle between a vertex's normal and its triangles'.
 constexpr float kFacing = 0.5f;
 
@@ -194,10 +197,8 @@ class Contour {
   void mark_cells() {
     std::vector<VoxelLeaf::NodeMaskType> masks(voxels_.leaves.size());
     voxels_.for_each_leaf([&](std::size_t i, const VoxelReader& reader) {
-      const LeafWindow window(*voxels_.leaves[i], reader);
-      for_each_cell([&](int x, int y, int z) {
-        const unsigned signs = signs_of(window.corners(x, y, z));
-        if (signs != 0 && signs != 0xff) masks[i].setOn(VoxelLeaf::coordToOffset(openvdb::Coord(x, y, z)));
+      for_each_crossed_cell(LeafSigns(*voxels_.leaves[i], reader), [&](int x, int y, int z) {
+        masks[i].setOn(VoxelLeaf::coordToOffset(openvdb::Coord(x, y, z)));
       });
     });
     first_vertex_.assign(voxels_.leaves.size() + 1, 0);
@@ -235,12 +236,22 @@ class Contour {
     std::vector<EdgeVertex> on_edges;
     BulkVector<Triangle> triangles;
     for (std::size_t leaf = first_leaf_of(index); leaf < first_leaf_of(index + 1); ++leaf) {
-      const LeafWindow window(*voxels_.leaves[leaf], reader);
-      for_each_cell([&](int x, int y, int z) {
-        for (int axis = 0; axis < 3; ++axis) {
-          add_quad(leaf, {x, y, z}, axis, window, reader, triangles, on_edges);
+      const LeafSigns signs(*voxels_.leaves[leaf], reader);
+      for (int x = 0; x < kLeafSide; ++x) {
+        for (int y = 0; y < kLeafSide; ++y) {
+          // Where the surface crosses the grid's edges that leave a row of voxels along each axis.
+          const unsigned row = signs.row(x, y);
+          const std::array<unsigned, 3> crossed = {row ^ signs.row(x + 1, y), row ^ signs.row(x, y + 1),
+                                                   row ^ row >> 1};
+          for (int axis = 0; axis < 3; ++axis) {
+            for (unsigned left = crossed[static_cast<std::size_t>(axis)] & 0xffu; left != 0;
+                 left &= left - 1) {
+              const int z = std::countr_zero(left);
+              add_quad(leaf, {x, y, z}, axis, (row >> z & 1u) != 0, reader, triangles, on_edges);
+            }
+          }
         }
-      });
+      }
     }
     number_vertices(index, on_edges.size(), triangles, piece);
     fetch_vertices(on_edges, piece);
@@ -391,16 +402,10 @@ class Contour {
     return static_cast<std::uint32_t>(first_vertex_[leaf->transientData()]) + rank;
   }
 
-  /// The triangles about the grid edge that leaves a voxel along `axis`, if the surface crosses it.
-  void add_quad(std::size_t leaf, const Coord& voxel, int axis, const LeafWindow& window,
-                const VoxelReader& voxels, BulkVector<Triangle>& triangles,
-                std::vector<EdgeVertex>& on_edges) const {
-    Coord step(0);
-    step[axis] = 1;
-    const float from = window.at(voxel.x, voxel.y, voxel.z);
-    const float to = window.at(voxel.x + step.x, voxel.y + step.y, voxel.z + step.z);
-    if ((from < 0.0f) == (to < 0.0f)) return;
-
+  /// The triangles about the grid edge that leaves a voxel along `axis`; the surface crosses it, outwards if
+  /// the voxel is inside.
+  void add_quad(std::size_t leaf, const Coord& voxel, int axis, bool is_inside, const VoxelReader& voxels,
+                BulkVector<Triangle>& triangles, std::vector<EdgeVertex>& on_edges) const {
     // The four cells around the edge, counter-clockwise seen from its end: from outside, if that is there.
     const openvdb::Coord last = voxels_.leaves[leaf]->origin().offsetBy(voxel.x, voxel.y, voxel.z);
     openvdb::Coord b(0, 0, 0);
@@ -410,7 +415,9 @@ class Contour {
     std::array<std::uint32_t, 4> ring = {vertex_of(last - b - c, voxels), vertex_of(last - c, voxels),
                                          vertex_of(last, voxels), vertex_of(last - b, voxels)};
     const std::uint32_t own = ring[2];
-    if (to < 0.0f) std::swap(ring[1], ring[3]);
+    if (!is_inside) std::swap(ring[1], ring[3]);
+    Coord step(0);
+    step[axis] = 1;
     const Vec3 start = place_of({last.x(), last.y(), last.z()}, voxels_.voxel_size);
     const Vec3 end = start + Vec3(step) * voxels_.voxel_size;
     const std::optional<int> diagonal = safe_diagonal(ring, start, end);
@@ -420,8 +427,10 @@ class Contour {
       triangles.push_back({ring[d], ring[d + 2], ring[(d + 3) % 4]});
       return;
     }
+    const double from = voxels.getValue(last);
+    const double to = voxels.getValue(last.offsetBy(step.x, step.y, step.z));
     const double margin = kCellMargin;
-    const double t = std::clamp(from / (static_cast<double>(from) - to), margin, 1.0 - margin);
+    const double t = std::clamp(from / (from - to), margin, 1.0 - margin);
     const std::uint32_t middle = kOnEdge | static_cast<std::uint32_t>(on_edges.size());
     on_edges.push_back({Vec3f(start + (end - start) * t), own});
     for (std::size_t i = 0; i < 4; ++i) triangles.push_back({middle, ring[i], ring[(i + 1) % 4]});
@@ -502,22 +511,54 @@ class Contour {
     return finished(std::move(mesh), std::move(internodes));
   }
 
-  /// Lets go what pieces had to leave for their neighbours.
-  static void join_borders(CollapsibleMesh& mesh) {
-    std::vector<bool> was_border(mesh.freedom.size());
-    for (std::size_t v = 0; v < was_border.size(); ++v) was_border[v] = !mesh.freedom[v].is_whole;
-    for (Freedom& freedom : mesh.freedom) freedom.is_whole = true;
-    for (const Triangle& triangle : mesh.triangles) {
-      const bool is_near = was_border[triangle[0]] || was_border[triangle[1]] || was_border[triangle[2]];
-      if (!is_near) continue;
-      for (const std::uint32_t v : triangle) mesh.freedom[v].is_settled = false;
+  /// Simplifies where pieces had to leave vertices for their neighbours, and around.
+  void simplify_borders(CollapsibleMesh& mesh) const {
+    const std::vector<std::uint8_t> steps = steps_from_borders(mesh);
+    const auto is_near = [&](const Triangle& triangle) {
+      return std::any_of(triangle.begin(), triangle.end(),
+                         [&](std::uint32_t v) { return steps[v] < kBorderSteps; });
+    };
+    const auto far_end = std::stable_partition(mesh.triangles.begin(), mesh.triangles.end(),
+                                               [&](const Triangle& triangle) { return !is_near(triangle); });
+    CollapsibleMesh band;
+    band.triangles.assign(far_end, mesh.triangles.end());
+    mesh.triangles.erase(far_end, mesh.triangles.end());
+    const std::vector<std::uint32_t> used =
+        drop_unused(std::vector<bool>(mesh.positions.size(), false), band.triangles);
+    for (const std::uint32_t v : used) {
+      band.positions.push_back(mesh.positions[v]);
+      band.normals.push_back(mesh.normals[v]);
+      band.errors.push_back(mesh.errors[v]);
+      band.freedom.push_back({.can_go = mesh.freedom[v].can_go, .is_whole = steps[v] < kBorderSteps});
+    }
+    simplify_closed(band, tolerance_);
+    for (Triangle triangle : band.triangles) {
+      for (std::uint32_t& v : triangle) v = used[v];
+      mesh.triangles.push_back(triangle);
     }
   }
 
+  /// Of each vertex, how many edges lie between it and one that is not whole; kBorderSteps: more or as many.
+  static std::vector<std::uint8_t> steps_from_borders(const CollapsibleMesh& mesh) {
+    std::vector<std::uint8_t> steps(mesh.freedom.size(), kBorderSteps);
+    for (std::size_t v = 0; v < steps.size(); ++v) {
+      if (!mesh.freedom[v].is_whole) steps[v] = 0;
+    }
+    for (std::uint8_t step = 0; step + 1 < kBorderSteps; ++step) {
+      for (const Triangle& triangle : mesh.triangles) {
+        const bool is_next =
+            steps[triangle[0]] == step || steps[triangle[1]] == step || steps[triangle[2]] == step;
+        if (!is_next) continue;
+        for (const std::uint32_t v : triangle)
+          steps[v] = std::min(steps[v], static_cast<std::uint8_t>(step + 1));
+      }
+    }
+    return steps;
+  }
+
   ClosedSurface finished(CollapsibleMesh mesh, BulkVector<std::uint32_t> internodes) const {
-    join_borders(mesh);
-    mend_normals(mesh);
-    if (tolerance_ > 0.0) simplify_closed(mesh, tolerance_);
+    if (tolerance_ > 0.0) simplify_borders(mesh);
+    for (Freedom& freedom : mesh.freedom) freedom.is_whole = true;
     fill_hollows(mesh.positions, mesh.triangles);
     const std::vector<std::uint32_t> kept =
         drop_unused(std::vector<bool>(mesh.positions.size(), false), mesh.triangles);

@@ -59,7 +59,7 @@ class Collapser {
     std::size_t left = mesh_.positions.size();
     for (;;) {
       const std::size_t gone = sweep();
-      if (static_cast<double>(gone) < kWorthwhile * static_cast<double>(left)) break;
+      if (gone == 0 || static_cast<double>(gone) < kWorthwhile * static_cast<double>(left)) break;
       left -= gone;
     }
     const auto is_gone = [](const Triangle& triangle) { return triangle[0] == kNone; };

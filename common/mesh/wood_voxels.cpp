@@ -129,7 +129,9 @@ std::optional<openvdb::Coord> fill_one(const openvdb::Coord& cell,
     return cell.offsetBy(static_cast<int>(i / 4), static_cast<int>(i / 2 % 2), static_cast<int>(i % 2));
   };
   for (unsigned i = 0; i < 8; ++i) corners[i] = voxels.getValue(corner(i));
-  const unsigned ambiguous = kAmbiguous[signs_of(corners)];
+  unsigned signs = 0;
+  for (unsigned i = 0; i < 8; ++i) signs |= static_cast<unsigned>(corners[i] < 0.0f) << i;
+  const unsigned ambiguous = kAmbiguous[signs];
   if (ambiguous == 0) return std::nullopt;
   unsigned best = 8;
   for (unsigned i = 0; i < 8; ++i) {
@@ -143,9 +145,11 @@ std::optional<openvdb::Coord> fill_one(const openvdb::Coord& cell,
 void fill_ambiguous(WoodVoxels& voxels) {
   std::vector<std::vector<openvdb::Coord>> found(voxels.leaves.size());
   voxels.for_each_leaf([&](std::size_t i, const VoxelReader& reader) {
-    const LeafWindow window(*voxels.leaves[i], reader);
-    for_each_cell([&](int x, int y, int z) {
-      if (kAmbiguous[signs_of(window.corners(x, y, z))] == 0) return;
+    const LeafSigns signs(*voxels.leaves[i], reader);
+    for_each_crossed_cell(signs, [&](int x, int y, int z) {
+      unsigned corners = 0;
+      for (int c = 0; c < 4; ++c) corners |= (signs.row(x + c / 2, y + c % 2) >> z & 3u) << (2 * c);
+      if (kAmbiguous[corners] == 0) return;
       found[i].push_back(voxels.leaves[i]->origin().offsetBy(x, y, z));
     });
   });
@@ -163,10 +167,38 @@ void fill_ambiguous(WoodVoxels& voxels) {
 
 }  // namespace
 
-unsigned signs_of(const CellCorners& corners) {
-  unsigned signs = 0;
-  for (unsigned i = 0; i < 8; ++i) signs |= static_cast<unsigned>(corners[i] < 0.0f) << i;
-  return signs;
+LeafSigns::LeafSigns(const VoxelLeaf& leaf, const VoxelReader& voxels) {
+  // A voxel's bit in a row of its own leaf, or in the one that follows along z.
+  const auto bits_of = [](const VoxelLeaf& from, int x, int y, int count) {
+    const float* row = from.buffer().data() + (x * kLeafSide + y) * kLeafSide;
+    unsigned bits = 0;
+    for (int z = 0; z < count; ++z) bits |= static_cast<unsigned>(row[z] < 0.0f) << z;
+    return bits;
+  };
+  const std::array<int, 2> lengths = {kLeafSide, 1};
+  for (int i = 0; i < 8; ++i) {
+    const Coord beside(i & 1, i >> 1 & 1, i >> 2 & 1);
+    const openvdb::Coord origin =
+        leaf.origin().offsetBy(beside.x * kLeafSide, beside.y * kLeafSide, beside.z * kLeafSide);
+    const VoxelLeaf* from = i == 0 ? &leaf : voxels.probeConstLeaf(origin);
+    const bool is_inside = from == nullptr && voxels.getValue(origin) < 0.0f;
+    const int count = lengths[static_cast<std::size_t>(beside.z)];
+    for (int x = 0; x < lengths[static_cast<std::size_t>(beside.x)]; ++x) {
+      for (int y = 0; y < lengths[static_cast<std::size_t>(beside.y)]; ++y) {
+        const unsigned bits =
+            from != nullptr ? bits_of(*from, x, y, count) : (is_inside ? (1u << count) - 1 : 0u);
+        const int place = (x + beside.x * kLeafSide) * (kLeafSide + 1) + y + beside.y * kLeafSide;
+        auto& row = rows_[static_cast<std::size_t>(place)];
+        row = static_cast<std::uint16_t>(beside.z == 0 ? bits : row | bits << kLeafSide);
+      }
+    }
+  }
+}
+
+unsigned LeafSigns::crossed_cells(int x, int y) const {
+  const unsigned all = row(x, y) & row(x, y + 1) & row(x + 1, y) & row(x + 1, y + 1);
+  const unsigned any = row(x, y) | row(x, y + 1) | row(x + 1, y) | row(x + 1, y + 1);
+  return ((any | any >> 1) & ~(all & all >> 1)) & ((1u << kLeafSide) - 1);
 }
 
 LeafWindow::LeafWindow(const VoxelLeaf& leaf, const VoxelReader& voxels) {

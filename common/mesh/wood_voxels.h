@@ -6,6 +6,7 @@
 #include <openvdb/openvdb.h>
 
 #include <array>
+#include <bit>
 #include <memory>
 #include <vector>
 
@@ -44,9 +45,6 @@ struct WoodVoxels {
 /// (i / 4, i / 2 % 2, i % 2).
 using CellCorners = std::array<float, 8>;
 
-/// Bit i: corner i is inside.
-unsigned signs_of(const CellCorners& corners);
-
 /// The voxels of a leaf and their neighbours on the upper sides: the corners of its cells.
 class LeafWindow {
  public:
@@ -65,12 +63,29 @@ class LeafWindow {
   std::array<float, kSide * kSide * kSide> values_;
 };
 
-/// Calls body(x, y, z) for each cell of a leaf.
+/// Which voxels of a leaf, and of their neighbours on the upper sides, are inside: a row along z at a time.
+class LeafSigns {
+ public:
+  LeafSigns(const VoxelLeaf& leaf, const VoxelReader& voxels);
+
+  /// Bit z: voxel (x, y, z) is inside; 0 <= x, y, z <= kLeafSide.
+  unsigned row(int x, int y) const { return rows_[static_cast<std::size_t>(x * (kLeafSide + 1) + y)]; }
+
+  /// Bit z: the surface passes the cell of voxel (x, y, z); x, y, z < kLeafSide.
+  unsigned crossed_cells(int x, int y) const;
+
+ private:
+  std::array<std::uint16_t, (kLeafSide + 1) * (kLeafSide + 1)> rows_;
+};
+
+/// Calls body(x, y, z) for each cell of a leaf that the surface passes, in the order of their numbers.
 template <class Body>
-void for_each_cell(Body body) {
+void for_each_crossed_cell(const LeafSigns& signs, Body body) {
   for (int x = 0; x < kLeafSide; ++x) {
     for (int y = 0; y < kLeafSide; ++y) {
-      for (int z = 0; z < kLeafSide; ++z) body(x, y, z);
+      for (unsigned left = signs.crossed_cells(x, y); left != 0; left &= left - 1) {
+        body(x, y, std::countr_zero(left));
+      }
     }
   }
 }
