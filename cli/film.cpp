@@ -42,7 +42,8 @@ struct Actor {
   Scene scene() const {
     return {.mesh = &tree.mesh,
             .skeleton = tree.skeleton ? &*tree.skeleton : nullptr,
-            .sky = sky ? &*sky : nullptr};
+            .sky = sky ? &*sky : nullptr,
+            .obstacles = whole ? &whole->obstacles : &tree.obstacles};
   }
   void show(std::uint32_t at);
 };

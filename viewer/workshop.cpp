@@ -5,6 +5,7 @@
 #include <chrono>
 #include <new>
 
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 #include "viewer/scene.h"
@@ -20,6 +21,10 @@ constexpr double kNotifyEvery = 0.1;  // seconds
 // Sides of a draft's tubes: round enough to tell thick from thin.
 constexpr int kDraftSides = 3;
 constexpr int kDraftSidesOfTrunk = 8;
+
+// See surface_of().
+constexpr int kObstacleVoxels = 128;
+constexpr int kDraftObstacleVoxels = 32;
 
 double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -56,10 +61,14 @@ void dress(Product& product, const Order& order) {
   product.mesh = make_tree_mesh(product.skeleton, looks_of(order), seed).mesh;
   for (const Vec3& position : product.skeleton.position) product.box.include(position);
   for (const Vec3f& position : product.mesh.positions) product.box.include(Vec3(position));
+  if (order.job) {
+    product.obstacles = obstacle_mesh(*order.job, order.is_draft ? kDraftObstacleVoxels : kObstacleVoxels);
+    product.box.include(obstacle_room(product.obstacles, product.box));
+  }
   if (!order.is_draft) {
     product.sky = sky_light(product.mesh, base_of({.mesh = &product.mesh, .skeleton = &product.skeleton}).y);
   }
-  if (!order.is_draft) product.numbers = numbers_of(product.skeleton);
+  if (!order.is_draft) product.numbers = std::make_shared<const Numbers>(numbers_of(product.skeleton));
   product.mesh_seconds = now_seconds() - start;
 }
 
