@@ -8,9 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/experiment/plots.h"
+#include "cli/experiment/sweep_figures.h"
 #include "cli/experiment/sweep_folder.h"
+#include "cli/experiment/sweep_pictures.h"
 #include "cli/experiment/sweep_plan.h"
 #include "cli/experiment/sweep_pool.h"
+#include "cli/experiment/sweep_report.h"
 #include "cli/experiment/sweep_results.h"
 #include "cli/experiment/sweep_run.h"
 #include "cli/experiment/value_list.h"
@@ -18,6 +22,8 @@
 #include "cli/progress_bar.h"
 #include "cli/text.h"
 #include "common/base/errors.h"
+#include "common/base/files.h"
+#include "common/base/image.h"
 #include "common/base/parallel.h"
 
 namespace ramify::cli {
@@ -76,34 +82,85 @@ void make_missing(const SweepPlan& plan, const SweepFolder& folder, const SweepF
                                 plan.runs.size())};
 }
 
-void print_outcome(const SweepResults& results, const SweepFlags& flags, std::size_t made) {
-  const std::string table = (std::filesystem::path(flags.folder) / "results.csv").string();
+/// Draws the trees, if there is anything to draw with, and their contact sheet.
+void draw_pictures(SweepFindings& findings, const SweepFolder& folder, const Session& session,
+                   ProgressBar& bar) {
+  findings.picture_side = picture_side(findings.results.rows.size());
+  try {
+    findings.pictures =
+        draw_runs(findings.results, folder, session, [&](std::size_t done, std::size_t total) {
+          bar.show({"drawing", static_cast<double>(done), static_cast<double>(total), "picture"});
+        });
+    folder.write("contact-sheet.png", png_bytes(labelled_sheet(findings.results, findings.pictures)));
+  } catch (const GraphicsError& error) {
+    findings.notes.push_back(fmt::format("There are no pictures: {}.", error.what()));
+    findings.pictures.assign(findings.results.rows.size(), "");
+  }
+}
+
+/// Draws the figures where there is gnuplot, and keeps the SVGs for the report.
+void draw_figures(SweepFindings& findings, const SweepFolder& folder) {
+  findings.responses = responses_of(findings.results);
+  findings.has_gnuplot = has_gnuplot();
+  if (!findings.has_gnuplot) return;
+  const std::vector<Plot> lines = lines_of(findings.responses);
+  const std::vector<HeatMap> maps = maps_of(findings.responses);
+  const std::filesystem::path plots = folder.path() / "plots";
+  std::filesystem::create_directory(plots);
+  draw_plots(lines, plots);
+  draw_heat_maps(maps, plots);
+  const auto keep = [&](const std::string& name) {
+    findings.figure_svgs.push_back(read_file(plots / (name + ".svg")));
+  };
+  for (const Plot& plot : lines) keep(plot.name);
+  for (const HeatMap& map : maps) keep(map.name);
+}
+
+/// Writes what is told of the runs.
+SweepFindings report(const SweepPlan& plan, const SweepFolder& folder, const SweepFlags& flags,
+                     const Session& session) {
+  ProgressBar bar(flags.running.is_quiet);
+  SweepFindings findings;
+  findings.results = gather(plan, folder.runs());
+  folder.write("results.csv", results_csv(findings.results));
+  draw_pictures(findings, folder, session, bar);
+  draw_figures(findings, folder);
+  folder.write("report.html", sweep_report(findings));
+  return findings;
+}
+
+void print_outcome(const SweepFindings& findings, const SweepFlags& flags, std::size_t made) {
+  const std::filesystem::path folder = flags.folder;
+  const SweepResults& results = findings.results;
   if (flags.running.is_json) {
-    const nlohmann::ordered_json object = {{"runs", results.rows.size()},
+    const nlohmann::ordered_json object = {{"report", (folder / "report.html").string()},
+                                           {"results", (folder / "results.csv").string()},
+                                           {"gnuplot", findings.has_gnuplot},
+                                           {"runs", results.rows.size()},
                                            {"done", results.count_done()},
-                                           {"failed", results.count_failed()},
-                                           {"made_now", made},
-                                           {"results", table}};
+                                           {"failed", results.rows.size() - results.count_done()},
+                                           {"made_now", made}};
     fmt::print("{}\n", object.dump());
   } else if (!flags.running.is_quiet) {
-    fmt::print("{} runs, {} of them made now\n  {}\n", grouped(results.rows.size()), grouped(made), table);
+    fmt::print("{}\n{} made now\n  {}\n  {}\n", sweep_in_words(findings), grouped(made),
+               (folder / "results.csv").string(), (folder / "report.html").string());
   }
 }
 
 void sweep(const SweepFlags& flags, const Session& session) {
   const SweepPlan plan = plan_of(flags, session);
+  const ThreadLimit limit(flags.running.threads);
   SweepFolder folder(flags.folder);
   folder.lock();
   folder.write(kPlanFile, plan_text(plan));
   const std::size_t done_before = gather(plan, folder.runs()).count_done();
   make_missing(plan, folder, flags, session);
-  const SweepResults results = gather(plan, folder.runs());
-  folder.write("results.csv", results_csv(results));
-  print_outcome(results, flags, results.count_done() - done_before);
-  const std::size_t failed = results.rows.size() - results.count_done();
-  if (failed > 0) {
-    throw RunError(fmt::format("{} of {} runs failed ({} says why)", failed, results.rows.size(),
-                               (folder.path() / "results.csv").string()));
+  const SweepFindings findings = report(plan, folder, flags, session);
+  const std::size_t done = findings.results.count_done();
+  print_outcome(findings, flags, done - done_before);
+  if (done < findings.results.rows.size()) {
+    throw RunError(fmt::format("{} of {} runs failed ({} says why)", findings.results.rows.size() - done,
+                               findings.results.rows.size(), (folder.path() / "results.csv").string()));
   }
 }
 
