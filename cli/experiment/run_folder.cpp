@@ -65,12 +65,32 @@ fs::path failure_file(const fs::path& runs, const std::string& name) {
   return runs / (name + ".failed");
 }
 
+/// Of the wood, to twice its width: a foot may flare.
+Box extent_of(const Skeleton& tree) {
+  Box box;
+  for (std::size_t node = 0; node < tree.position.size(); ++node) {
+    box.include(tree.position[node] - Vec3(tree.diameter[node]));
+    box.include(tree.position[node] + Vec3(tree.diameter[node]));
+  }
+  return box;
+}
+
+nlohmann::json numbers_of(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Vec3 vector_of(const nlohmann::json& numbers) {
+  return {numbers.at(0), numbers.at(1), numbers.at(2)};
+}
+
 std::string record_text(const Skeleton& tree, double seconds, std::uint64_t peak_memory_bytes,
                         const std::vector<std::string>& warnings) {
+  const Box extent = extent_of(tree);
   const nlohmann::ordered_json object = {{"version", version()},
                                          {"seconds", seconds},
                                          {"peak_memory_bytes", peak_memory_bytes},
                                          {"warnings", warnings},
+                                         {"extent", {numbers_of(extent.low), numbers_of(extent.high)}},
                                          {"metrics", metrics_json(measure(tree))}};
   return object.dump(1) + "\n";
 }
@@ -83,6 +103,7 @@ RunRecord record_of(const nlohmann::json& object) {
   }
   record.seconds = object.at("seconds");
   record.peak_memory_bytes = object.at("peak_memory_bytes");
+  record.extent = {vector_of(object.at("extent").at(0)), vector_of(object.at("extent").at(1))};
   record.warnings = object.at("warnings").get<std::vector<std::string>>();
   return record;
 }

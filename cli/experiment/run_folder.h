@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/geometry.h"
 #include "common/config/job.h"
 
 namespace ramify::cli {
@@ -17,6 +18,7 @@ struct RunRecord {
   std::vector<std::optional<double>> metrics;  // in the order of metric_table()
   double seconds = 0.0;                        // that the engine took
   std::uint64_t peak_memory_bytes = 0;
+  Box extent;                         // of the wood, metres
   std::vector<std::string> warnings;  // a limit that it stopped at, for instance
 };
 

@@ -123,7 +123,8 @@ TEST_CASE("slurm: names that a shell would take apart, options of one's own and 
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(outcome.out.rfind("job 42: 12 of 12 runs in 6 tasks\n", 0) == 0);
-  CHECK(outcome.out.find("then: ramify sweep -o 'it'\\''s a $HOME/o u t' --collect\n") != std::string::npos);
+  CHECK(outcome.out.find("  ramify sweep -o 'it'\\''s a $HOME/o u t' --collect gathers\n") !=
+        std::string::npos);
   const fs::path jobs = cluster.path("it's a $HOME/o u t/slurm");
   const std::string script = read_file(fs::directory_iterator(jobs)->path() / "job.sh");
   CHECK(script.find("--cpus-per-task=3\n#SBATCH --partition=long --comment=\"a b\"\nexec ") !=
@@ -141,7 +142,7 @@ TEST_CASE("slurm: only what is missing is submitted again, to the tasks that it 
   }
   check_failure(
       cluster.sweep("-o out --collect --quiet"), 1,
-      "2 of 12 runs are missing, of job 42's tasks 1 (squeue --job 42 tells whether they run; logs: ");
+      "2 of 12 runs are missing, of job 42's tasks 1 (`squeue --job 42` tells whether they run; logs: ");
   CHECK(cluster.text("out/results.csv").find(",2,3,") != std::string::npos);
   CHECK(cluster.text("out/results.csv").find(",missing,") != std::string::npos);
 
@@ -159,7 +160,7 @@ TEST_CASE("slurm: what is done in the folder meanwhile does not change a job tha
   const Cluster cluster("#!/bin/sh\necho 7\n");
   const json job = cluster.told(kSweep + " -o out --slurm --tasks 2");
   check_failure(cluster.sweep("-o out --collect --quiet"), 1,
-                "12 of 12 runs are missing, of job 7's tasks 0, 1 (squeue --job 7 ");
+                "12 of 12 runs are missing, of job 7's tasks 0, 1 (`squeue --job 7` ");
   cluster.told("s4-fig6 --vary seed=90 --steps 3 -o out");
   const std::string script = "sh '" + job["folder"].get<std::string>() + "/job.sh'";
   // One is requeued and made twice at once.
@@ -228,6 +229,7 @@ TEST_CASE("slurm: what it cannot do is one line") {
   refused("-o out --slurm", "config is required\n");
   refused("s4-fig6 -o out --slurm", "--vary is required\n");
   refused("s4-fig6 -o out --collect", "--vary is required\n");
+  refused("-o out --collect --seed 3", "--seed: goes with CONFIG\n");
   refused("-o out --collect", "--collect: out: no sweep is there\n");
 
   const Outcome failing = cluster.sweep(kSweep + " -o out --slurm");
