@@ -81,15 +81,7 @@ float turn_between(const Vec3f& a, const Vec3f& b) {
 }  // namespace
 
 void measure(std::span<Knot> knots) {
-  Vec3f along(kUp);
-  for (std::size_t i = 1; i < knots.size(); ++i) {
-    const Vec3f step = knots[i].position - knots[i - 1].position;
-    knots[i].length = glm::length(step);
-    knots[i].room = knots[i].length;
-    if (knots[i].length > 1e-12f) along = step / knots[i].length;
-    knots[i].along = along;
-  }
-  knots[0].along = knots.size() > 1 ? knots[1].along : along;
+  for (std::size_t i = 1; i < knots.size(); ++i) measure(knots, i);
 }
 
 std::uint32_t rings_in_bend(const Knot& knot, const Knot& next, float turn_max) {

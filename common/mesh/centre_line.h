@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/geometry.h"
+#include "common/mesh/axes.h"
 #include "common/mesh/mesher.h"
 
 namespace ramify {
@@ -13,9 +14,9 @@ namespace ramify {
 /// A node of a tube, with the stretch that leads to it.
 struct Knot {
   Vec3f position;
-  Vec3f along{0.0f};    // unit, from the knot before; of the first knot, to the one after
-  float length = 0.0f;  // from the knot before, metres
-  float room = 0.0f;    // the part of it that bends may take
+  Vec3f along{0.0f, 1.0f, 0.0f};  // unit, from the knot before; of the first knot, to the one after
+  float length = 0.0f;            // from the knot before, metres
+  float room = 0.0f;              // the part of it that bends may take
   float radius = 0.0f;
   std::uint32_t node = 0;
   std::uint32_t point = 0;  // of the axes
@@ -30,8 +31,30 @@ struct LinePoint {
   std::uint32_t node = 0;
 };
 
-/// Sets `along`, `length` and `room` from the positions. Knots in one place keep the direction before them.
+/// Sets `along`, `length` and `room` of knots[i] and, if it is the second one, the first one's direction.
+/// A knot in the place of the one before takes over its direction.
+inline void measure(std::span<Knot> knots, std::size_t i) {
+  Knot& knot = knots[i];
+  const Vec3f step = knot.position - knots[i - 1].position;
+  knot.length = glm::length(step);
+  knot.room = knot.length;
+  knot.along = knot.length > 1e-12f ? step / knot.length : knots[i - 1].along;
+  if (i == 1) knots[0].along = knot.along;
+}
+
+/// Measures all knots but the first; with one knot there is nothing to measure.
 void measure(std::span<Knot> knots);
+
+/// Appends a point of the axes as a knot, measured.
+inline void append_knot(std::vector<Knot>& knots, const Axes& axes, std::uint32_t point) {
+  Knot& knot = knots.emplace_back();
+  const AxisPoint& at = axes.points[point];
+  knot.position = at.position;
+  knot.radius = at.radius;
+  knot.node = at.node;
+  knot.point = point;
+  if (knots.size() > 1) measure(knots, knots.size() - 1);
+}
 
 /// How many rings a knot needs between two stretches for the line to turn by no more than `turn_max` from one
 /// to the next, radians.

@@ -61,12 +61,25 @@ class TubeWriter {
     v_ = 0.0f;
     from_base_ = 0.0f;
     if (tube_->collar > 0) write_collar(fork);
-    write_rings();
-    write_tip();
+    circle_ = unit_circle(tube_->sides);
+    middles_ = unit_circle(2 * tube_->sides) + 1;
+    // Nearly all tubes of a large tree have three sides: there the compiler unrolls what runs over them.
+    if (tube_->sides == 3) {
+      write_rings<3>();
+      write_tip<3>();
+    } else {
+      write_rings<0>();
+      write_tip<0>();
+    }
     if (tube_->is_closed) write_flat_end();
   }
 
  private:
+  template <std::uint32_t Sides>
+  std::uint32_t side_count() const {
+    return Sides > 0 ? Sides : tube_->sides;
+  }
+
   void move_base(const Fork& fork) {
     knots_[0].position = Vec3f(fork.center);
     measure(knots_);
@@ -86,15 +99,22 @@ class TubeWriter {
                                     static_cast<std::uint32_t>(c)};
   }
 
-  /// Joins two rings; the lower one may have twice as many sides.
-  void join(std::size_t low, std::uint32_t low_sides, std::size_t high, std::uint32_t high_sides) {
-    if (low_sides == high_sides) {
-      for (std::uint32_t i = 0; i < low_sides; ++i) {
-        add_triangle(low + i, low + i + 1, high + i + 1);
-        add_triangle(low + i, high + i + 1, high + i);
-      }
-      return;
+  /// Joins two rings of as many sides.
+  template <std::uint32_t Sides>
+  void join(std::size_t low_ring, std::size_t high_ring, std::uint32_t sides_here) {
+    const std::uint32_t sides = Sides > 0 ? Sides : sides_here;
+    const auto low = static_cast<std::uint32_t>(low_ring);
+    const auto high = static_cast<std::uint32_t>(high_ring);
+    std::array<std::uint32_t, 3>* triangles = mesh_.triangles.data() + triangle_;
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      triangles[2 * i] = {low + i, low + i + 1, high + i + 1};
+      triangles[2 * i + 1] = {low + i, high + i + 1, high + i};
     }
+    triangle_ += 2 * sides;
+  }
+
+  /// Joins a ring to one of half as many sides.
+  void join_to_half(std::size_t low, std::size_t high, std::uint32_t high_sides) {
     for (std::uint32_t i = 0; i < high_sides; ++i) {
       add_triangle(low + 2 * i, low + 2 * i + 1, high + i);
       add_triangle(low + 2 * i + 1, high + i + 1, high + i);
@@ -134,11 +154,12 @@ class TubeWriter {
       }
     }
     for (std::uint32_t ring = 0; ring < tube_->collar; ++ring) {
-      join(vertex_ + ring * (sides + 1), sides, vertex_ + (ring + 1) * (sides + 1), sides);
+      join<0>(vertex_ + ring * (sides + 1), vertex_ + (ring + 1) * (sides + 1), sides);
     }
     vertex_ += (tube_->collar + 1) * (sides + 1);
   }
 
+  template <std::uint32_t Sides>
   void write_rings() {
     const std::size_t count = points_.size() - (tube_->is_pointed ? 1 : 0);
     float length = 0.0f;  // from the point before
@@ -147,58 +168,69 @@ class TubeWriter {
       const LinePoint& low = points_[i == 0 ? 0 : i - 1];
       const LinePoint& high = points_[std::min(i + 1, points_.size() - 1)];
       const float next_length = glm::distance(point.position, high.position);
-      v_ += length / (std::numbers::pi_v<float> * (point.radius + low.radius));
-      from_base_ += length;
-      side_ = transported(side_, along_, point.along);
-      along_ = point.along;
+      if (i > 0) {
+        v_ += length / (std::numbers::pi_v<float> * (point.radius + low.radius));
+        from_base_ += length;
+        side_ = transported(side_, along_, point.along);
+        along_ = point.along;
+      }
       if (i < count && !(i == 0 && tube_->collar > 0)) {
         const float both = length + next_length;
         const float taper = both > plan_.axes->thinnest ? (low.radius - high.radius) / both : 0.0f;
         // The first ring shows the same internode as the one above it.
-        write_and_join(i, taper, i == 0 ? knots_[1].node : point.node);
+        write_and_join<Sides>(i, taper, i == 0 ? knots_[1].node : point.node);
       }
       length = next_length;
     }
   }
 
   /// A ring of the line, and the band to the one below.
+  template <std::uint32_t Sides>
   void write_and_join(std::size_t i, float taper, std::uint32_t node) {
     const std::size_t ring = vertex_;
-    const bool is_wide = i < tube_->flare_rings;
-    const std::uint32_t sides = tube_->sides * (is_wide ? 2 : 1);
-    if (is_wide) {
-      write_flared_ring(points_[i], sides, node);
-    } else {
-      write_ring(points_[i], taper, node);
+    const std::uint32_t sides = side_count<Sides>();
+    if (i < tube_->flare_rings) {
+      write_flared_ring(points_[i], 2 * sides, node);
+      if (i > 0) join<0>(ring - 2 * sides - 1, ring, 2 * sides);
+      return;
     }
+    write_ring<Sides>(points_[i], taper, node);
     if (i == 0) return;
-    const std::uint32_t low_sides = tube_->sides * (i <= tube_->flare_rings ? 2 : 1);
-    join(ring - low_sides - 1, low_sides, ring, sides);
+    if (i == tube_->flare_rings) {
+      join_to_half(ring - 2 * sides - 1, ring, sides);
+    } else {
+      join<Sides>(ring - sides - 1, ring, sides);
+    }
   }
 
   /// A circle whose normals lean with the slope: lost radius a metre.
+  template <std::uint32_t Sides>
   void write_ring(const LinePoint& point, float slope, std::uint32_t node) {
-    const std::uint32_t sides = tube_->sides;
+    const std::uint32_t sides = side_count<Sides>();
     const Vec3f across = glm::cross(along_, side_);
     const float shorten = 1.0f / std::sqrt(1.0f + slope * slope);
+    const Vec3f center = point.position;
     const Vec3f side_offset = side_ * point.radius;
     const Vec3f across_offset = across * point.radius;
     const Vec3f lean = along_ * (slope * shorten);
     const Vec3f side_normal = side_ * shorten;
     const Vec3f across_normal = across * shorten;
-    const Vec2f* circle = unit_circle(sides);
+    const Vec2f* circle = circle_;
     const float step = 1.0f / static_cast<float>(sides);
-    Vec3f* positions = &mesh_.positions[vertex_];
-    Vec3f* normals = &mesh_.normals[vertex_];
+    const float v = v_;
+    Vec3f* positions = mesh_.positions.data() + vertex_;
+    Vec3f* normals = mesh_.normals.data() + vertex_;
+    Vec2f* uvs = mesh_.uvs.data() + vertex_;
+    std::uint32_t* internodes = mesh_.internodes.data() + vertex_;
     for (std::uint32_t i = 0; i < sides; ++i) {
-      positions[i] = point.position + side_offset * circle[i].x + across_offset * circle[i].y;
+      positions[i] = center + side_offset * circle[i].x + across_offset * circle[i].y;
       normals[i] = lean + side_normal * circle[i].x + across_normal * circle[i].y;
     }
     positions[sides] = positions[0];
     normals[sides] = normals[0];
     for (std::uint32_t i = 0; i <= sides; ++i) {
-      mesh_.uvs[vertex_ + i] = {static_cast<float>(i) * step, v_};
-      mesh_.internodes[vertex_ + i] = node;
+      uvs[i] = {static_cast<float>(i) * step, v};
+      internodes[i] = node;
     }
     vertex_ += sides + 1;
   }
@@ -220,9 +252,10 @@ class TubeWriter {
   }
 
   /// Rounded, or a cone. Its point has a vertex for each side, so that shading runs round it.
+  template <std::uint32_t Sides>
   void write_tip() {
     const LinePoint& last = points_.back();
-    const std::uint32_t sides = tube_->sides;
+    const std::uint32_t sides = side_count<Sides>();
     float length = tube_->is_pointed ? 0.0f : kPointedTipLength * last.radius;
     if (tube_->has_round_tip()) {
       const float v = v_;
@@ -230,12 +263,12 @@ class TubeWriter {
       ring.position += along_ * (kTipRing * last.radius);
       ring.radius *= kTipRingRadius;
       v_ += kTipRing / (2.0f * std::numbers::pi_v<float>);
-      write_ring(ring, 1.0f, last.node);
-      join(vertex_ - 2 * (sides + 1), sides, vertex_ - (sides + 1), sides);
+      write_ring<Sides>(ring, 1.0f, last.node);
+      join<Sides>(vertex_ - 2 * (sides + 1), vertex_ - (sides + 1), sides);
       v_ = v;
       length = kTipLength * last.radius;
     }
-    const std::size_t ring = vertex_ - (sides + 1);
+    const auto ring = static_cast<std::uint32_t>(vertex_ - (sides + 1));
     const Vec3f apex = last.position + along_ * length;
     const float v = v_ + length / (2.0f * std::numbers::pi_v<float> * last.radius);
     // Between the sides, and half forwards unless the tip is as slim as its branch.
@@ -243,14 +276,21 @@ class TubeWriter {
     const Vec3f forwards = along_ * (tube_->is_pointed ? 0.0f : share);
     const Vec3f side_normal = side_ * share;
     const Vec3f across_normal = glm::cross(along_, side_) * share;
-    const Vec2f* middles = unit_circle(2 * sides) + 1;
+    const Vec2f* middles = middles_;
+    Vec3f* positions = mesh_.positions.data() + vertex_;
+    Vec3f* normals = mesh_.normals.data() + vertex_;
+    Vec2f* uvs = mesh_.uvs.data() + vertex_;
+    std::uint32_t* internodes = mesh_.internodes.data() + vertex_;
+    std::array<std::uint32_t, 3>* triangles = mesh_.triangles.data() + triangle_;
     for (std::uint32_t i = 0; i < sides; ++i) {
-      add_triangle(ring + i, ring + i + 1, vertex_);
-      mesh_.positions[vertex_] = apex;
-      mesh_.normals[vertex_] = forwards + side_normal * middles[2 * i].x + across_normal * middles[2 * i].y;
-      mesh_.uvs[vertex_] = {(static_cast<float>(i) + 0.5f) / static_cast<float>(sides), v};
-      mesh_.internodes[vertex_++] = last.node;
+      triangles[i] = {ring + i, ring + i + 1, ring + sides + 1 + i};
+      positions[i] = apex;
+      normals[i] = forwards + side_normal * middles[2 * i].x + across_normal * middles[2 * i].y;
+      uvs[i] = {(static_cast<float>(i) + 0.5f) / static_cast<float>(sides), v};
+      internodes[i] = last.node;
     }
+    vertex_ += sides;
+    triangle_ += sides;
   }
 
   /// Closes a trunk's base with a fan that faces down.
@@ -274,6 +314,8 @@ class TubeWriter {
   std::vector<Knot> knots_;  // scratch, like the two below
   std::vector<LinePoint> points_;
   RootFlare flare_;
+  const Vec2f* circle_ = nullptr;
+  const Vec2f* middles_ = nullptr;
   std::size_t vertex_ = 0;  // the next one
   std::size_t triangle_ = 0;
   Vec3f along_{0.0f};  // of the last ring

@@ -91,11 +91,6 @@ void straighten(std::vector<Knot>& knots, float tolerance) {
   line.resize(kept + 1);
 }
 
-Knot knot_at(const Axes& axes, std::uint32_t point) {
-  const AxisPoint& at = axes.points[point];
-  return {.position = at.position, .radius = at.radius, .node = at.node, .point = point};
-}
-
 class Planner {
  public:
   Planner(TubePlan& plan, const MesherOptions& options)
@@ -146,35 +141,43 @@ class Planner {
 
   void choose_knots(const Axis& axis) {
     knots_.clear();
-    knots_.push_back(knot_at(axes_, axis.first));
+    append_knot(knots_, axes_, axis.first);
     for (std::uint32_t i = axis.first + 1; i < axis.end(); ++i) {
-      const AxisPoint& point = axes_.points[i];
+      append_knot(knots_, axes_, i);
+      const Knot& knot = knots_.back();
       const bool is_tip = i + 1 == axis.end();
-      const float apart = glm::distance(point.position, knots_.back().position);
-      const bool is_crowded = apart < std::max(2.0f * kKnotSpacing * point.radius, axes_.thinnest);
-      const bool is_inside = knots_.size() == 1 && !axis.is_trunk() && is_buried(axis, point);
-      if (is_tip && is_crowded && knots_.size() > 1) knots_.pop_back();
-      if (is_tip || (!is_crowded && !is_inside)) knots_.push_back(knot_at(axes_, i));
+      const bool is_first = knots_.size() == 2;
+      const bool is_crowded = knot.length < std::max(2.0f * kKnotSpacing * knot.radius, axes_.thinnest);
+      if (is_tip) {
+        if (is_crowded && !is_first) drop_last_but_one();
+      } else if (is_crowded || (is_first && !axis.is_trunk() && is_buried(axis, knot))) {
+        knots_.pop_back();
+      }
     }
-    if (tolerance_ > 0.0f) straighten(knots_, 0.5f * tolerance_);
+    if (tolerance_ <= 0.0f) return;
+    straighten(knots_, 0.5f * tolerance_);
     measure(knots_);
   }
 
-  /// Whether a lateral's point still lies in the wood of its bearer, about which the lateral begins.
-  bool is_buried(const Axis& axis, const AxisPoint& point) const {
-    const float edge = axis.bearer_radius + kClear * point.radius;
-    const Vec3f offset = point.position - axes_.points[axis.first].position;
-    const float distance2 = glm::dot(offset, offset);
-    if (distance2 < edge * edge) return true;
-    if (distance2 > 9.0f * axis.bearer_radius * axis.bearer_radius) return false;
+  void drop_last_but_one() {
+    knots_[knots_.size() - 2] = knots_.back();
+    knots_.pop_back();
+    measure(knots_, knots_.size() - 1);
+  }
+
+  /// Whether a lateral's first knot still lies in the wood of its bearer, about which the lateral begins.
+  bool is_buried(const Axis& axis, const Knot& knot) const {
+    const float edge = axis.bearer_radius + kClear * knot.radius;
+    if (knot.length < edge) return true;
+    if (knot.length > 3.0f * axis.bearer_radius) return false;
     // Along the bearer after the base, or before it where it ends.
     const Axis& bearer = axes_.list[axis.bearer];
     const bool ends = axis.base + 1 == bearer.end();
     const std::uint32_t low = ends ? axis.base - 1 : axis.base;
     const Vec3f step = axes_.points[low + 1].position - axes_.points[low].position;
     const Vec3f along = normalized_or(step, Vec3f(kUp), 1e-12);
-    const float height = glm::dot(offset, along);
-    return !(ends && height > 0.0f) && distance2 - height * height < edge * edge;
+    const float height = knot.length * glm::dot(knot.along, along);
+    return !(ends && height > 0.0f) && knot.length * knot.length - height * height < edge * edge;
   }
 
   static std::uint8_t rings_below(const std::vector<LinePoint>& points, double height) {
@@ -244,13 +247,12 @@ TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOpti
 void collect_knots(const TubePlan& plan, std::size_t tube, std::vector<Knot>& knots) {
   const Axis& axis = plan.axes->list[tube];
   knots.clear();
-  knots.push_back(knot_at(*plan.axes, axis.first));
+  append_knot(knots, *plan.axes, axis.first);
   for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point) {
     if (plan.rings[point] == 0) continue;
-    knots.push_back(knot_at(*plan.axes, point));
+    append_knot(knots, *plan.axes, point);
     knots.back().rings = plan.rings[point];
   }
-  measure(knots);
   if (plan.tubes[tube].collar > 0) knots[1].room *= kRoomBesideCollar;
 }
 
