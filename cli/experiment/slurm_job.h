@@ -1,0 +1,43 @@
+// A sweep on a cluster: an array job of Slurm (https://slurm.schedmd.com), a task a slice of the runs.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "cli/experiment/sweep_plan.h"
+
+namespace ramify::cli {
+
+struct SlurmOptions {
+  int tasks = 0;               // slices; 0: as many as there are families of runs, at most kUsualTasks
+  int threads = 0;             // processors of a task; 0: one
+  std::string sbatch_options;  // for an #SBATCH line, as they would be typed
+};
+
+/// Tasks of a job where nobody says how many: each waits in the cluster's queue for its turn.
+inline constexpr std::size_t kUsualTasks = 16;
+
+/// A job that Slurm has taken.
+struct SlurmJob {
+  std::string id;
+  std::size_t slices = 0;        // that the plan's runs are dealt out to
+  std::size_t tasks = 0;         // slices that had runs to make
+  std::filesystem::path folder;  // plan.json, job.sh, job.json; task-K.log of each task
+};
+
+/// The place of a plan's job below the sweep's folder; the same for the same runs.
+std::filesystem::path slurm_folder(const std::filesystem::path& sweep, const SweepPlan& plan);
+
+/// Writes the job of these runs (indices, at least one) into slurm_folder() and hands it to sbatch. The
+/// sweep's folder must be one that all machines share. Throws RunError if there is no sbatch or it fails,
+/// with its words; IoError.
+SlurmJob submit(const SweepPlan& plan, std::span<const std::size_t> runs, const std::filesystem::path& sweep,
+                const SlurmOptions& options);
+
+/// The last job that was submitted for the plan; nothing if there was none.
+std::optional<SlurmJob> submitted(const std::filesystem::path& sweep, const SweepPlan& plan);
+
+}  // namespace ramify::cli
