@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "common/base/errors.h"
+#include "common/base/memory.h"
 #include "common/base/parallel.h"
 
 namespace ramify::bench {
@@ -27,30 +28,18 @@ std::string command_of(const Trial& trial) {
   return command;
 }
 
-/// Most memory this process ever held, bytes. Of the kernel's own book-keeping for this program: what
-/// getrusage() says begins with the size of the process that started it.
-double peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
-    double kibibytes = 0.0;
-    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024.0;
-  }
-  throw RunError("/proc/self/status has no line VmHWM");
-}
-
 }  // namespace
 
 Outcome measured(const std::function<void()>& work) {
   using Clock = std::chrono::steady_clock;
   Outcome outcome;
-  outcome.bytes_at_start = peak_bytes();
+  outcome.bytes_at_start = double(process_memory().peak);
   const std::clock_t cpu_start = std::clock();
   const Clock::time_point start = Clock::now();
   work();
   outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   outcome.cpu_seconds = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
-  outcome.peak_bytes = peak_bytes();
+  outcome.peak_bytes = double(process_memory().peak);
   return outcome;
 }
 

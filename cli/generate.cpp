@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/resource.h>
 
 #include <CLI/Option.hpp>
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "cli/outputs.h"
 #include "cli/text.h"
 #include "common/base/errors.h"
+#include "common/base/memory.h"
 #include "common/base/parallel.h"
 #include "common/base/stopwatch.h"
 #include "common/mesh/tree_mesh.h"
@@ -68,12 +68,6 @@ RunContext context_for(const GenerateFlags& flags, const std::vector<Output>& ou
   return context;
 }
 
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
-}
-
 using Seconds = std::vector<std::pair<std::string, double>>;
 
 using Paths = std::vector<std::filesystem::path>;
@@ -94,7 +88,7 @@ void print_json(const Results& results, bool has_mesh, const Paths& outputs, con
     object["leaves"] = {{"count", results.tree.leaf_count}, {"area", results.tree.leaf_area}};
   }
   for (const auto& [stage, duration] : seconds) object["seconds"][stage] = duration;
-  object["peak_memory_bytes"] = peak_memory_bytes();
+  object["peak_memory_bytes"] = process_memory().peak;
   object["outputs"] = nlohmann::json::array();
   for (const auto& file : outputs) object["outputs"].push_back(file.string());
   for (const ReportGroup& group : results.run.report.groups) {
@@ -136,7 +130,7 @@ void print_summary(const Results& results, bool has_mesh, const Paths& outputs, 
   for (std::size_t i = 0; i < seconds.size(); ++i) {
     fmt::print("{}{} {:.3f}", i > 0 ? ", " : "", seconds[i].first, seconds[i].second);
   }
-  fmt::print("), {:.0f} MB\n", static_cast<double>(peak_memory_bytes()) / 1e6);
+  fmt::print("), {:.0f} MB\n", static_cast<double>(process_memory().peak) / 1e6);
 }
 
 /// The skeleton as --at-step and --history want it.
@@ -146,11 +140,6 @@ Skeleton wanted_state(Skeleton skeleton, const GenerateFlags& flags, const Job& 
     throw InputError(fmt::format("--at-step: trees of the engine '{}' have no steps", job.engine->name));
   }
   return cut_at_step(skeleton, static_cast<std::uint32_t>(flags.at_step), flags.with_history);
-}
-
-void set_steps(Job& job, int steps) {
-  Origins origins;
-  assign(job_table(*job.engine), &job, "steps", std::to_string(steps), "--at-step", origins);
 }
 
 void generate(const GenerateFlags& flags, const Session& session) {

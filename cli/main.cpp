@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/text.h"
 #include "common/base/errors.h"
 #include "common/config/field.h"
 #include "common/config/provenance.h"
@@ -37,7 +38,8 @@ int fail(ExitCode code, const std::string& message) {
 /// What is near to a word nobody expected: a command's name or a flag.
 std::string suggestion(const std::string& word, const CLI::App& program) {
   std::vector<std::string> known;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+  const auto is_shown = [](const CLI::App* command) { return !command->get_group().empty(); };
+  for (const CLI::App* command : program.get_subcommands(is_shown)) {
     known.push_back(command->get_name());
   }
   for (const CLI::App* command : program.get_subcommands()) {
@@ -69,6 +71,8 @@ int run(int argc, char** argv) {
   const InterruptWatch watch;
   Session session;
   session.stop = watch.token();
+  session.command_line = "ramify";
+  for (int i = 1; i < argc; ++i) session.command_line += " " + shell_quoted(argv[i]);
   growth::register_engine(session.registry);
   pathplan::register_engine(session.registry);
 
@@ -80,6 +84,9 @@ int run(int argc, char** argv) {
   add_view(program, session);
   add_stats(program, session);
   add_compare(program, session);
+  add_sweep(program, session);
+  add_sweep_run(program, session);
+  add_sweep_task(program, session);
   add_convert(program);
   add_presets(program);
   add_params(program, session);
@@ -90,8 +97,8 @@ int run(int argc, char** argv) {
       return kDone;
     }
     return parse_and_run(program, argc, argv);
-  } catch (const Interrupted&) {
-    return fail(kInterrupted, "interrupted; nothing written");
+  } catch (const Interrupted& interrupted) {
+    return fail(kInterrupted, "interrupted; " + interrupted.outcome);
   } catch (const ConfigError& error) {
     return fail(kBadInput, error.what());
   } catch (const InputError& error) {

@@ -12,9 +12,9 @@ namespace {
 
 std::string limit_warning(const Parameters& parameters, const Simulation& simulation) {
   return fmt::format(
-      "stopped after step {} of {} with {} internodes: the next step would make more than "
-      "growth.max_internodes = {}",
-      simulation.step(), parameters.steps, simulation.internode_count(), parameters.max_internodes);
+      "stopped after step {} with {} internodes: the next step would make more than growth.max_internodes = "
+      "{}",
+      simulation.step(), simulation.internode_count(), parameters.max_internodes);
 }
 
 Skeleton skeleton_of(std::vector<GrowingTree> trees, const Parameters& parameters) {
@@ -25,6 +25,18 @@ Skeleton skeleton_of(std::vector<GrowingTree> trees, const Parameters& parameter
 }
 
 }  // namespace
+
+UsedVolumes Engine::volumes(const Parameters& parameters) {
+  UsedVolumes used;
+  for (const Obstacle& obstacle : parameters.obstacles) {
+    if (obstacle.blocks || obstacle.shadow > 0.0) used.obstacles.push_back(&obstacle.volume);
+  }
+  if (parameters.environment == Environment::space) used.others.push_back(&parameters.markers.volume);
+  for (const PruneEvent& event : parameters.prune) {
+    if (event.step <= parameters.steps) used.others.push_back(&event.volume);
+  }
+  return used;
+}
 
 std::vector<std::string> Engine::check(const Parameters& parameters) {
   return check_parameters(parameters);

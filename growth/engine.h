@@ -13,9 +13,12 @@ namespace ramify::growth {
 struct Engine {
   using Parameters = growth::Parameters;
   static constexpr std::string_view name = "growth";
+  static constexpr bool has_history = true;
   static std::vector<std::string> layers(const Parameters& parameters) {
     return {parameters.environment == Environment::light ? "shadow" : "markers"};
   }
+
+  static UsedVolumes volumes(const Parameters& parameters);
 
   static int steps(const Parameters& parameters) { return parameters.steps; }
 

@@ -43,9 +43,10 @@ struct Product {
   std::uint32_t last_step = 0;           // or level, of the whole run; 0 where there is neither
   Skeleton skeleton;                     // what is shown of it
   Mesh mesh;
-  Box box;                         // around both
-  SkyLight sky;                    // of the mesh; empty for a draft
-  std::optional<Numbers> numbers;  // of what is shown; none for a draft
+  Mesh obstacles;                          // of the job
+  Box box;                                 // around the tree, and the obstacles near it
+  SkyLight sky;                            // of the mesh; empty for a draft
+  std::shared_ptr<const Numbers> numbers;  // of what is shown; of a draft those of the tree before it
   bool is_draft = false;
   double run_seconds = 0.0;   // 0 if there was no run
   double mesh_seconds = 0.0;  // with cutting and the sky's light

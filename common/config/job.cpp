@@ -162,6 +162,11 @@ Job independent_copy(const Job& job) {
   return copy;
 }
 
+void set_steps(Job& job, int steps) {
+  Origins origins;
+  assign(job_table(*job.engine), &job, "steps", std::to_string(steps), "steps", origins);
+}
+
 void check(Job& job) {
   job.warnings = checked(job, {});
 }

@@ -47,6 +47,9 @@ Job default_job(const AnyEngine& engine);
 /// A job with parameters of its own: the copy of a Job shares them.
 Job independent_copy(const Job& job);
 
+/// Gives a job other steps, as --steps does; it is not checked. Throws ConfigError.
+void set_steps(Job& job, int steps);
+
 /// Checks a job whose parameters were changed and sets its warnings. Throws ConfigError.
 void check(Job& job);
 

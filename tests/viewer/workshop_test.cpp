@@ -25,8 +25,10 @@ struct SlowEngine {
     }
   };
   static constexpr std::string_view name = "slow";
+  static constexpr bool has_history = false;
   static inline std::atomic<int> stopped = 0;
   static std::vector<std::string> layers(const Parameters&) { return {}; }
+  static UsedVolumes volumes(const Parameters&) { return {}; }
   static std::vector<std::string> check(const Parameters&) { return {}; }
   static int steps(const Parameters& parameters) { return parameters.steps; }
   static RunResult run(const Parameters& parameters, const RunContext& context) {

@@ -1,0 +1,397 @@
+// `ramify sweep`: what it makes, what it does not make again, and how it stands being killed.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "common/base/files.h"
+#include "tests/catch.h"
+#include "tests/cli/program.h"
+#include "tests/folder.h"
+
+using namespace ramify;
+using namespace ramify::test;
+using nlohmann::json;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Cells of a CSV file without quoted commas, a row each.
+using Rows = std::vector<std::vector<std::string>>;
+
+Rows rows_of(const std::string& csv) {
+  Rows rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::string cell;
+    bool is_quoted = false;
+    for (const char c : line + ",") {
+      if (c == '"') is_quoted = !is_quoted;
+      if (c != ',' || is_quoted) {
+        cell += c;
+        continue;
+      }
+      rows.back().push_back(cell);
+      cell.clear();
+    }
+  }
+  return rows;
+}
+
+std::vector<std::string> column(const Rows& rows, const std::string& name) {
+  const auto found = std::find(rows.at(0).begin(), rows.at(0).end(), name);
+  REQUIRE(found != rows.at(0).end());
+  std::vector<std::string> cells;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    cells.push_back(rows[i].at(static_cast<std::size_t>(found - rows[0].begin())));
+  }
+  return cells;
+}
+
+/// A sweep's table without what depends on the machine and the moment.
+Rows without_costs(const std::string& csv) {
+  Rows rows = rows_of(csv);
+  for (const std::string cost : {"seconds", "peak_memory_bytes"}) {
+    const auto at = std::find(rows.at(0).begin(), rows.at(0).end(), cost) - rows[0].begin();
+    for (auto& row : rows) row.erase(row.begin() + at);
+  }
+  return rows;
+}
+
+/// All files of a sweep, hidden ones too; the bytes of those that depend on the config alone.
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    const bool has_costs = entry.is_directory() || name == "results.csv" || name == "report.html" ||
+                           name.starts_with("plots/") || name.ends_with("result.json");
+    files[name] = has_costs ? "" : read_file(entry.path());
+  }
+  return files;
+}
+
+Outcome sweep(const std::string& arguments, const Folder& folder) {
+  return run_program("sweep " + arguments, folder.path().string());
+}
+
+json outcome_of(const std::string& arguments, const Folder& folder) {
+  const Outcome outcome = sweep(arguments + " --json --quiet", folder);
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return json::parse(outcome.out);
+}
+
+}  // namespace
+
+TEST_CASE("sweep: a row for each combination, the last key varying soonest, with the metrics of stats") {
+  const Folder folder;
+  const json outcome =
+      outcome_of("s4-fig6 --vary growth.alpha=1.5,2 --vary seed=3:5:1 --steps 5 -o out", folder);
+  CHECK(outcome["runs"] == 6);
+  CHECK(outcome["made_now"] == 6);
+  const Rows rows = rows_of(read_file(folder.file("out/results.csv")));
+  CHECK(column(rows, "growth.alpha") == std::vector<std::string>{"1.5", "1.5", "1.5", "2", "2", "2"});
+  CHECK(column(rows, "seed") == std::vector<std::string>{"3", "4", "5", "3", "4", "5"});
+  CHECK(column(rows, "status") == std::vector<std::string>(6, "done"));
+
+  const Rows stats = rows_of(run_program("stats s4-fig6 --set growth.alpha=2 --seed 4 --steps 5 --csv").out);
+  for (std::size_t k = 1; k < stats.at(0).size(); ++k) {  // but for the input's name
+    INFO(stats[0][k]);
+    CHECK(column(rows, stats[0][k])[4] == stats.at(1)[k]);
+  }
+  for (const std::string& name : column(rows, "run")) {
+    CHECK(name.size() == 16);
+    const std::string config = folder.file("out/runs/" + name + "/config.toml");
+    CHECK(run_program("check " + config).code == 0);
+  }
+  for (const std::string& seconds : column(rows, "seconds")) CHECK(std::stod(seconds) < 60.0);
+  for (const std::string& bytes : column(rows, "peak_memory_bytes")) {
+    CHECK(std::stod(bytes) > 1e6);
+    CHECK(std::stod(bytes) < 1e9);
+  }
+}
+
+TEST_CASE("sweep: steps are cut from one growing tree, byte for byte the runs of so many steps") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  outcome_of("s4-fig8 --vary steps=5:7:1 -o cut", folder);
+  for (const std::string steps : {"5", "6", "7"})
+    outcome_of("s4-fig8 --vary steps=" + steps + " -o alone", folder);
+  auto cut = files_of(folder.path() / "cut/runs");
+  CHECK(cut.size() == 3 * 4);
+  CHECK(cut == files_of(folder.path() / "alone/runs"));
+
+  // An earlier step took no longer than a later one: they are of one run.
+  const std::vector<std::string> seconds =
+      column(rows_of(read_file(folder.file("cut/results.csv"))), "seconds");
+  CHECK(std::stod(seconds[0]) <= std::stod(seconds[1]));
+  CHECK(std::stod(seconds[1]) <= std::stod(seconds[2]));
+}
+
+TEST_CASE("sweep: a tree that stops at a limit says so, the steps before do not") {
+  const Folder folder;
+  outcome_of("s4-fig8 --set growth.max_internodes=300 --vary steps=3,7,8 -o cut", folder);
+  for (const std::string steps : {"3", "7", "8"}) {
+    outcome_of("s4-fig8 --set growth.max_internodes=300 --vary steps=" + steps + " -o alone", folder);
+    const Rows alone = rows_of(read_file(folder.file("alone/results.csv")));
+    const Rows cut = rows_of(read_file(folder.file("cut/results.csv")));
+    const auto at = static_cast<std::size_t>(steps == "3" ? 0 : (steps == "7" ? 1 : 2));
+    CHECK(column(cut, "message")[at] == column(alone, "message")[0]);
+    CHECK(column(cut, "message")[at].empty() == (steps == "3"));
+    CHECK(column(cut, "internodes")[at] == column(alone, "internodes")[0]);
+    CHECK(column(cut, "status")[at] == "done");
+  }
+}
+
+TEST_CASE("sweep: levels of planned trees are runs of their own") {
+  const Folder folder;
+  outcome_of("xm12-fig5 --vary steps=1,2 -o out", folder);
+  const Rows rows = rows_of(read_file(folder.file("out/results.csv")));
+  for (const std::string steps : {"1", "2"}) {
+    const Rows stats = rows_of(run_program("stats xm12-fig5 --csv --steps " + steps).out);
+    CHECK(column(rows, "height")[steps == "1" ? 0 : 1] == column(stats, "height")[0]);
+  }
+}
+
+TEST_CASE("sweep: finished runs are not made again, new values make new runs only") {
+  const Folder folder;
+  const std::string values = " --vary growth.alpha=1.5,2";
+  CHECK(outcome_of("s4-fig6 --steps 4" + values + " -o out", folder)["made_now"] == 2);
+  const auto first = files_of(folder.path() / "out/runs");
+  std::map<std::string, fs::file_time_type> times;
+  for (const auto& [name, bytes] : first)
+    times[name] = fs::last_write_time(folder.path() / "out/runs" / name);
+
+  CHECK(outcome_of("s4-fig6 --steps 4" + values + " -o out", folder)["made_now"] == 0);
+  CHECK(files_of(folder.path() / "out/runs") == first);
+  CHECK(outcome_of("s4-fig6 --steps 4" + values + ",2.5 -o out", folder)["made_now"] == 1);
+  CHECK(column(rows_of(read_file(folder.file("out/results.csv"))), "growth.alpha").size() == 3);
+  CHECK(outcome_of("s4-fig6 --steps 5" + values + " -o out", folder)["made_now"] == 2);
+  CHECK(outcome_of("s4-fig6 --steps 4 --set mesher.sides_max=7" + values + " -o out", folder)["made_now"] ==
+        2);
+  for (const auto& [name, bytes] : first) {
+    CHECK(fs::last_write_time(folder.path() / "out/runs" / name) == times[name]);
+  }
+
+  // Whoever takes a run away has it made again; what was changed is not taken for a run's.
+  const std::string name = first.begin()->first;
+  fs::remove_all(folder.path() / "out/runs" / name);
+  CHECK(outcome_of("s4-fig6 --steps 4" + values + " -o out", folder)["made_now"] == 1);
+  CHECK(files_of(folder.path() / "out/runs").at(name + "/tree.skel.ply") ==
+        first.at(name + "/tree.skel.ply"));
+}
+
+TEST_CASE("sweep: values of all kinds") {
+  const Folder folder;
+  outcome_of(
+      "s4-fig6 --steps 3 --vary 'growth.lambda=[[1, 0.6], [8, 0.5]],0.5' --vary growth.tie=first,mean -o out",
+      folder);
+  const Rows rows = rows_of(read_file(folder.file("out/results.csv")));
+  CHECK(column(rows, "growth.lambda")[0] == "\"[[1, 0.6], [8, 0.5]]\"");
+  CHECK(column(rows, "growth.tie") == std::vector<std::string>{"first", "mean", "first", "mean"});
+
+  outcome_of("s4-fig6 --steps 3 --vary growth.lambda=0.46:0.54:0.02 --vary seed=9:3:-3 -o range", folder);
+  const Rows range = rows_of(read_file(folder.file("range/results.csv")));
+  std::vector<std::string> lambdas;
+  for (const std::string value : {"0.46", "0.48", "0.5", "0.52", "0.54"})
+    lambdas.insert(lambdas.end(), 3, value);
+  CHECK(column(range, "growth.lambda") == lambdas);
+  CHECK(column(range, "seed")[2] == "3");
+}
+
+TEST_CASE("sweep: a run's config means the same files from any folder") {
+  const Folder folder;
+  fs::create_directory(folder.path() / "mine");
+  std::ofstream(folder.file("mine/leaf.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(folder.file("mine/tree.toml"))
+      << "base = \"s4-fig6\"\nsteps = 3\n[leaves]\nmesh = \"leaf.obj\"\n";
+  outcome_of("mine/tree.toml --vary seed=1 -o out", folder);
+  const std::string name = column(rows_of(read_file(folder.file("out/results.csv"))), "run")[0];
+  const std::string config = folder.file("out/runs/" + name + "/config.toml");
+  CHECK(read_file(config).find("mesh = \"" + folder.file("mine/leaf.obj") + "\"") != std::string::npos);
+  CHECK(run_program("generate " + config + " -o a.glb --quiet", (folder.path() / "out").string()).code == 0);
+}
+
+TEST_CASE("sweep: a run that fails has its row and does not stop the others") {
+  const Folder folder;
+  const Outcome outcome = sweep(
+      "xm12-fig22-sparse --vary pathplan.unreachable=error,warn --vary seed=1,2 -o out --quiet", folder);
+  check_failure(outcome, 1, "2 of 4 runs failed (out/results.csv says why)\n");
+  const Rows rows = rows_of(read_file(folder.file("out/results.csv")));
+  CHECK(column(rows, "status") == std::vector<std::string>{"failed", "failed", "done", "done"});
+  CHECK(column(rows, "message")[0].find("endpoints cannot be reached from the root (raise nodes") !=
+        std::string::npos);
+  CHECK(column(rows, "height")[0].empty());
+  CHECK_FALSE(column(rows, "height")[3].empty());
+
+  // Only what failed is tried again, and with the same end.
+  CHECK(
+      sweep("xm12-fig22-sparse --vary pathplan.unreachable=error,warn --vary seed=1,2 -o out --quiet", folder)
+          .err == outcome.err);
+}
+
+TEST_CASE("sweep: of a tree whose later steps cannot be made the earlier ones are") {
+  const Folder folder;
+  // In 250 MB of address space a small tree grows and a large one does not.
+  const Outcome outcome =
+      run_shell("ulimit -v 250000; '" + program_path() + "' sweep p09-640k --vary steps=10,80 -o out --quiet",
+                folder.path().string());
+  check_failure(outcome, 1, "1 of 2 runs failed (out/results.csv says why)\n");
+  const Rows rows = rows_of(read_file(folder.file("out/results.csv")));
+  CHECK(column(rows, "status") == std::vector<std::string>{"done", "failed"});
+  CHECK(column(rows, "message")[1].find("memory") != std::string::npos);
+}
+
+TEST_CASE("sweep: a run that is killed has its row") {
+  const Folder folder;
+  const Outcome outcome =
+      run_shell("'" + program_path() +
+                    "' sweep p09-640k --vary seed=1,2 --threads 1 -o out --quiet & sweep=$!\n"
+                    "for i in $(seq 500); do child=$(cat /proc/$sweep/task/$sweep/children); [ -n \"$child\" "
+                    "] && break; "
+                    "sleep 0.01; done\n"
+                    "kill -9 $child; wait $sweep",
+                folder.path().string());
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("ramify: 1 of 2 runs failed") != std::string::npos);
+  const Rows rows = rows_of(read_file(folder.file("out/results.csv")));
+  CHECK(column(rows, "status") == std::vector<std::string>{"failed", "done"});
+  CHECK(column(rows, "message")[0] == "ended by signal 9 (Killed); perhaps there was too little memory");
+}
+
+TEST_CASE("sweep: Ctrl-C ends the runs, leaves no halves and keeps what is finished") {
+  const Folder folder;
+  const std::string arguments = "p09-fig7-50 --vary seed=1:300:1 -o out";
+  const Outcome outcome = run_shell(
+      "'" + program_path() + "' sweep " + arguments +
+          " --quiet & sweep=$!\n"
+          "for i in $(seq 1000); do ls out/runs 2>/dev/null | grep -q . && break; sleep 0.01; done\n"
+          "child=$(cat /proc/$sweep/task/$sweep/children | cut -d' ' -f1)\n"
+          "kill -INT $sweep; wait $sweep; code=$?; kill -0 $child 2>/dev/null && echo alive; exit $code",
+      folder.path().string());
+  CHECK(outcome.code == 130);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.rfind("ramify: interrupted; ", 0) == 0);
+  CHECK(outcome.err.find(" of 300 runs are made and kept; the same command goes on from there\n") !=
+        std::string::npos);
+  std::size_t finished = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "out/runs")) {
+    CHECK(entry.path().filename().string().front() != '.');
+    CHECK(fs::exists(entry.path() / "result.json"));
+    ++finished;
+  }
+  CHECK(finished >= 1);
+  CHECK(finished < 300);
+  CHECK_FALSE(fs::exists(folder.path() / "out/results.csv"));
+}
+
+TEST_CASE("sweep: killed ten times, it ends with what an undisturbed one has") {
+  const Folder folder;
+  const std::string arguments = "s4-fig6 --vary growth.alpha=1.5,2 --vary seed=1:50:1 --vary steps=3,4";
+  outcome_of(arguments + " -o whole", folder);
+  const Outcome killed =
+      run_shell("RANDOM=7\nfor i in 1 2 3 4 5 6 7 8 9 10; do\n'" + program_path() + "' sweep " + arguments +
+                    " -o out --quiet & sleep 0.$((RANDOM % 3))$((RANDOM % 10)); kill -9 $! && wait $!\n"
+                    "echo $?\ndone 2>/dev/null",
+                folder.path().string());
+  CHECK(std::count(killed.out.begin(), killed.out.end(), '\n') == 10);
+  CHECK(killed.out.find("137\n137\n137\n") != std::string::npos);
+  outcome_of(arguments + " -o out", folder);
+  CHECK(without_costs(read_file(folder.file("out/results.csv"))) ==
+        without_costs(read_file(folder.file("whole/results.csv"))));
+  CHECK(rows_of(read_file(folder.file("out/results.csv"))).size() == 201);
+  auto out = files_of(folder.path() / "out");
+  auto whole = files_of(folder.path() / "whole");
+  out.erase("sweep.json");  // has the command, and in it the folder
+  whole.erase("sweep.json");
+  CHECK(out == whole);
+}
+
+TEST_CASE("sweep: two at once in one folder are one too many") {
+  const Folder folder;
+  const Outcome outcome =
+      run_shell("'" + program_path() +
+                    "' sweep p09-fig7-50 --vary seed=1:300:1 -o out --quiet 2>/dev/null & sweep=$!\n"
+                    "for i in $(seq 1000); do [ -e out/sweep.json ] && break; sleep 0.01; done\n"
+                    "'" +
+                    program_path() +
+                    "' sweep s4-fig6 --vary seed=1 -o out; code=$?; kill $sweep; wait $sweep; exit $code",
+                folder.path().string());
+  check_failure(outcome, 1, "out: another `ramify sweep` is at work there\n");
+}
+
+TEST_CASE("sweep: what is wrong is one line, before anything is made") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  const auto refused = [&](const std::string& arguments, const std::string& message, int code = 2) {
+    INFO(arguments);
+    check_failure(sweep("s4-fig6 " + arguments, folder), code, message);
+  };
+  refused("--vary growth.alpa=1,2 -o out",
+          "--vary: growth.alpa: unknown key; did you mean 'growth.alpha'?\n");
+  refused("--vary growth.alpha=1,x -o out", "--vary: growth.alpha: a string (a number, 0 to 1000");
+  refused("--vary growth.alpha=1,2000 -o out", "--vary: growth.alpha: 2000 is out of range (");
+  refused("--vary growth.alpha -o out", "--vary: 'growth.alpha' is no KEY=LIST (a,b,c or from:to:step)\n");
+  refused("--vary growth.alpha= -o out", "--vary: growth.alpha: a value is missing in '' (");
+  refused("--vary growth.alpha=1,,2 -o out", "--vary: growth.alpha: a value is missing in '1,,2' (");
+  refused("--vary growth.alpha=1:2 -o out",
+          "--vary: growth.alpha: '1:2' is no range (a,b,c or from:to:step)\n");
+  refused("--vary growth.alpha=a:2:1 -o out", "--vary: growth.alpha: 'a' is no number in 'a:2:1' (");
+  refused("--vary growth.alpha=1:2:0 -o out",
+          "--vary: growth.alpha: the step of '1:2:0' is 0 (more than 0, or less to go down)\n");
+  refused("--vary growth.alpha=1:2:-0.5 -o out",
+          "--vary: growth.alpha: '1:2:-0.5' is empty: a step of -0.5 leads from 1 away from 2 (a positive "
+          "one goes "
+          "up)\n");
+  refused("--vary growth.alpha=2:1:0.5 -o out", "--vary: growth.alpha: '2:1:0.5' is empty: ");
+  refused("--vary seed=0:9e9:1 -o out", "--vary: seed: '0:9e9:1' has 9e+09 values (at most 1000000)\n");
+  refused("--vary seed=1:1000:1 --vary steps=1:11:1 -o out",
+          "--vary: 11,000 combinations (at most 10,000)\n");
+  refused("--vary seed=1 --vary seed=2 -o out",
+          "--vary: seed: is there twice (one list of all its values)\n");
+  refused("--vary seed=1 --seed 2 -o out", "--seed: seed is varied, too (one of them)\n");
+  refused("--vary growth.alpha=1 --set growth.alpha=2 -o out",
+          "--set: growth.alpha is varied, too (one of them)\n");
+  refused("--vary mesher.sides_max=4,16 --set mesher.sides_min=8 -o out",
+          "--set: mesher.sides_min: 8 is more than");
+  refused("-o out", "--vary is required");
+  refused("--vary seed=1", "--output is required");
+  check_failure(sweep("s4-fig66 --vary seed=1 -o out", folder), 2, "s4-fig66: no such file or preset (");
+  check_failure(sweep("xm12-fig5 --vary steps=1:3:1 -o out", folder), 2,
+                "--vary: steps: 3 (there are 2 levels)\n");
+  CHECK(folder.count() == 0);
+
+  refused("--vary seed=1 -o none/out", "none/out: cannot write: there is no folder none\n", 1);
+  std::ofstream(folder.file("file")) << "mine";
+  refused("--vary seed=1 -o file", "file: is there already and no folder\n");
+  fs::create_directory(folder.path() / "mine");
+  fs::rename(folder.file("file"), folder.path() / "mine/file");
+  refused("--vary seed=1 -o mine",
+          "mine: is there already and no folder of `ramify sweep` (name another folder)\n");
+  CHECK(folder.count() == 1);
+  CHECK(read_file(folder.file("mine/file")) == "mine");
+}
+
+TEST_CASE("sweep: help has examples that can be typed") {
+  const Folder folder;
+  const std::string help = run_program("sweep --help").out;
+  CHECK(help.find("from:to:step") != std::string::npos);
+  std::size_t examples = 0;
+  for (std::size_t at = help.find("\n  ramify sweep "); at != std::string::npos;
+       at = help.find("\n  ramify sweep ", at + 1)) {
+    // Read and checked alone: whether the folder is there is looked at after the config.
+    std::string line = help.substr(at + 16, help.find('\n', at + 1) - at - 16);
+    line.replace(line.rfind("-o "), std::string::npos, "-o none/out");
+    check_failure(sweep(line, folder), 1, "none/out: cannot write: there is no folder none\n");
+    ++examples;
+  }
+  CHECK(examples >= 3);
+  CHECK(run_program("--help").out.find("sweep-run") == std::string::npos);
+}

@@ -1,0 +1,47 @@
+// What processes hold, and how many more there is room for.
+
+#include "common/base/memory.h"
+
+#include <vector>
+
+#include "tests/catch.h"
+
+using namespace ramify;
+
+namespace {
+constexpr std::uint64_t kMega = 1'000'000;
+}
+
+TEST_CASE("memory: a process that takes some holds it, and its peak stays when it is given back") {
+  const ProcessMemory before = process_memory();
+  CHECK(before.now > kMega);
+  CHECK(before.peak >= before.now);
+  {
+    const std::vector<char> taken(200 * kMega, 1);
+    CHECK(process_memory().now > before.now + 190 * kMega);
+    CHECK(taken.back() == 1);
+  }
+  CHECK(process_memory().now < before.now + 100 * kMega);
+  CHECK(process_memory().peak > before.now + 190 * kMega);
+  CHECK(available_memory() > kMega);
+}
+
+TEST_CASE("memory: of a process that is not there nothing is known") {
+  const ProcessMemory none = process_memory(0x7fffffff);
+  CHECK(none.now == 0);
+  CHECK(none.peak == 0);
+}
+
+TEST_CASE("memory: a process fits if all of them may grow to what is expected") {
+  const auto fits = [](std::vector<std::uint64_t> running, std::uint64_t expected, std::uint64_t available) {
+    return fits_beside(running, expected, available);
+  };
+  CHECK(fits({}, 900, 1000));
+  CHECK_FALSE(fits({}, 901, 1000));  // a tenth is kept free
+  CHECK(fits({300}, 300, 1000));
+  CHECK(fits({100}, 400, 1000));        // 300 more for the one that runs, 400 for the next
+  CHECK_FALSE(fits({100}, 501, 1000));  // 401 and 501
+  CHECK(fits({0, 0}, 300, 1000));
+  CHECK_FALSE(fits({0, 0}, 301, 1000));
+  CHECK(fits({800, 900}, 300, 400));  // those that have more already take no further
+}
