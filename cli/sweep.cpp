@@ -110,6 +110,7 @@ void make_missing(const SweepPlan& plan, const SweepFolder& folder, const SweepF
 void draw_pictures(SweepFindings& findings, const SweepFolder& folder, const Session& session,
                    ProgressBar& bar) {
   findings.picture_side = picture_side(findings.results.rows.size());
+  findings.picture_columns = picture_columns(findings.results.plan);
   try {
     findings.pictures =
         draw_runs(findings.results, folder, session, [&](std::size_t done, std::size_t total) {

@@ -114,7 +114,7 @@ Drawing drawing_of(const HeatMap& map) {
                        quoted(map.label));
   setup +=
       fmt::format("set xrange [-0.5:{}.5]\nset yrange [-0.5:{}.5]\n", columns - 1, map.y_names.size() - 1);
-  setup += "set palette defined (0 '#f7fbff', 1 '#9ecae1', 2 '#4292c6', 3 '#0b559f')\nset cbtics scale 0\n";
+  setup += "set palette defined (0 '#f7fbff', 1 '#c6dbef', 2 '#5fa8d8')\nset cbtics scale 0\n";
   std::string plot = "plot $cells using 1:2:3 with image pixels";
   constexpr std::size_t kMostNumbers = 12;  // side by side
   if (columns <= kMostNumbers && map.y_names.size() <= 2 * kMostNumbers) {

@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// More would take longer to make than all the rest, and a picture this small shows none of it.
+constexpr int kBarkResolution = 64;  // pixels
+
 constexpr int kLargestSide = 240;       // pixels
 constexpr int kSmallestSide = 48;       // pixels
 constexpr double kMostPixels = 40e6;    // of a contact sheet
@@ -54,7 +57,9 @@ class Studio {
     if (!renderer_) renderer_.emplace();
     const Job job = load_job(session.registry, (run / kRunConfig).string());
     const Skeleton tree = read_skeleton(run / kRunTree).skeleton;
-    const Mesh mesh = make_tree_mesh(tree, job.looks(), job.seed()).mesh;
+    Looks looks = job.looks();
+    looks.bark.resolution = std::min(looks.bark.resolution, kBarkResolution);
+    const Mesh mesh = make_tree_mesh(tree, looks, job.seed()).mesh;
     Box room = room_;  // leaves reach beyond the wood
     room.low -= Vec3(job.leaves.length);
     room.high += Vec3(job.leaves.length);
@@ -113,21 +118,21 @@ void paste(const Image& picture, Image& onto) {
   }
 }
 
-std::size_t columns_of(const SweepResults& results) {
-  const std::size_t count = results.rows.size();
-  const auto square = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
-  if (results.plan.keys.size() < 2) return square;
-  // The last key varies soonest: its values begin anew where the first value comes again.
-  std::size_t last = 1;
-  while (last < count && results.plan.runs[last].values.back() != results.plan.runs[0].values.back()) ++last;
-  return last <= 3 * square ? last : square;
-}
-
 }  // namespace
 
 int picture_side(std::size_t runs) {
   const double side = std::sqrt(kMostPixels / static_cast<double>(std::max<std::size_t>(runs, 1)));
   return std::clamp(static_cast<int>(side), kSmallestSide, kLargestSide);
+}
+
+std::size_t picture_columns(const SweepPlan& plan) {
+  const std::size_t count = plan.runs.size();
+  const auto square = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+  if (plan.keys.size() < 2) return square;
+  // The last key varies soonest: its values begin anew where the first one comes again.
+  std::size_t last = 1;
+  while (last < count && plan.runs[last].values.back() != plan.runs[0].values.back()) ++last;
+  return last <= 3 * square ? last : square;
 }
 
 std::vector<std::string> draw_runs(const SweepResults& results, const SweepFolder& folder,
@@ -175,7 +180,7 @@ Image labelled_sheet(const SweepResults& results, const std::vector<std::string>
     }
     tiles.push_back(std::move(tile));
   }
-  return contact_sheet(tiles, columns_of(results));
+  return contact_sheet(tiles, picture_columns(results.plan));
 }
 
 }  // namespace ramify::cli

@@ -22,8 +22,11 @@ std::vector<std::string> draw_runs(const SweepResults& results, const SweepFolde
 /// Width and height of the pictures, pixels; smaller where there are many runs.
 int picture_side(std::size_t runs);
 
-/// All pictures in rows, each with its values below; runs without a tree have their place. With two keys or
-/// more a row has the values of the last one.
+/// How many pictures stand side by side: the values of the last key where there are two or more, if that is
+/// not too wide; else about as many as there are rows.
+std::size_t picture_columns(const SweepPlan& plan);
+
+/// All pictures in rows, each with its values below; runs without a tree have their place.
 Image labelled_sheet(const SweepResults& results, const std::vector<std::string>& pictures);
 
 }  // namespace ramify::cli

@@ -92,13 +92,23 @@ std::string changes_in_words(const Responses& responses) {
   return words + ".";
 }
 
+/// The grid of pictures: a row a value of the first key, where the page is wide enough for the last one's.
+std::string grid_start(const SweepFindings& findings) {
+  constexpr std::size_t kMostColumns = 6;
+  const bool has_rows = findings.results.plan.keys.size() > 1 && findings.picture_columns <= kMostColumns;
+  if (!has_rows) return "<div class=\"figures\">\n";
+  return fmt::format(
+      "<div class=\"figures\" style=\"grid-template-columns: repeat({}, minmax(0, 15rem))\">\n",
+      findings.picture_columns);
+}
+
 Section pictures_section(const SweepFindings& findings) {
   const SweepPlan& plan = findings.results.plan;
   std::string content =
       "<p>All at one scale, roots at the same place; a picture leads to its config. The command under a "
       "picture "
-      "draws that tree alone, as large as it fits. contact-sheet.png has them all.</p>\n<div "
-      "class=\"figures\">\n";
+      "draws that tree alone, as large as it fits. contact-sheet.png has them all.</p>\n" +
+      grid_start(findings);
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     if (findings.pictures[i].empty()) continue;
     const std::string values = values_text(plan.keys, plan.runs[i].values);

@@ -15,6 +15,7 @@ struct SweepFindings {
   Responses responses;
   std::vector<std::string> pictures;  // PNG, one a run; empty where there is none
   int picture_side = 0;               // pixels
+  std::size_t picture_columns = 1;    // that stand side by side on the contact sheet
   std::vector<std::string>
       figure_svgs;  // one a response; none where there is no gnuplot or nothing to draw over
   bool has_gnuplot = false;
