@@ -172,6 +172,8 @@ bool Document::update(double now, bool is_at_rest) {
   }
   // The last tree's, until the fine one is measured.
   if (!made->numbers && product_) made->numbers = product_->numbers;
+  // While drafts follow each other; a tree that is looked at longer shall not hold memory twice.
+  if (product_ && made->is_draft) workshop_.reuse(std::move(product_->mesh));
   product_ = std::move(made);
   product_edit_time_ = edit_time;
   if (at_ && *at_ >= product_->last_step) at_.reset();

@@ -58,7 +58,7 @@ void dress(Product& product, const Order& order) {
   product.last_step = last_step(product.run->skeleton);
   product.skeleton = shown_part(product.run->skeleton, order.at);
   const std::uint64_t seed = order.job ? order.job->seed() : 0;
-  product.mesh = make_tree_mesh(product.skeleton, looks_of(order), seed).mesh;
+  product.mesh = make_tree_mesh(product.skeleton, looks_of(order), seed, std::move(product.mesh)).mesh;
   for (const Vec3& position : product.skeleton.position) product.box.include(position);
   for (const Vec3f& position : product.mesh.positions) product.box.include(Vec3(position));
   if (order.job) {
@@ -93,6 +93,11 @@ void Workshop::order(Order order) {
 std::unique_ptr<Product> Workshop::take() {
   const std::lock_guard lock(mutex_);
   return std::move(done_);
+}
+
+void Workshop::reuse(Mesh mesh) {
+  const std::lock_guard lock(mutex_);
+  spare_ = std::move(mesh);
 }
 
 WorkState Workshop::state() const {
@@ -145,6 +150,10 @@ std::unique_ptr<Product> Workshop::make(const Order& order, const std::stop_toke
       product->run = std::make_shared<const RunResult>(order.job->run(context));
       product->run_seconds = now_seconds() - start;
       if (stop.stop_requested()) return nullptr;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      product->mesh = std::move(spare_);
     }
     dress(*product, order);
   } catch (const std::bad_alloc&) {

@@ -74,6 +74,9 @@ class Workshop {
   /// The newest product not taken yet.
   std::unique_ptr<Product> take();
 
+  /// A mesh that is no longer shown: the next one is written into its memory.
+  void reuse(Mesh mesh);
+
   WorkState state() const;
 
  private:
@@ -91,10 +94,12 @@ class Workshop {
   double last_notified_ = 0.0;
   WorkState state_;
   std::unique_ptr<Product> done_;
+  Mesh spare_;
   std::jthread thread_;  // last: it uses all of the others
 };
 
-/// The tree of an order as it is to be shown: cut, meshed, and, unless it is a draft, with its sky light.
+/// The tree of an order as it is to be shown: cut, meshed, and, unless it is a draft, with its sky light. Of
+/// the mesh that product has, the memory is used again.
 void dress(Product& product, const Order& order);
 
 }  // namespace ramify

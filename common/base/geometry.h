@@ -45,7 +45,7 @@ struct Box {
 
 /// v / |v|, or `fallback` where v is shorter than `shortest`.
 template <class V>
-V normalized_or(const V& v, const V& fallback, double shortest = 1e-6) {
+V normalized_or(const V& v, const V& fallback, typename V::value_type shortest = typename V::value_type(1e-6)) {
   const auto length = glm::length(v);
   return length < shortest ? fallback : v / length;
 }
@@ -74,16 +74,13 @@ inline Vec3 perpendicular_at(const Vec3& direction, double azimuth) {
 
 /// `normal` carried along a curve whose unit tangent turns from `from` to `to`, without twist
 /// (parallel transport). Stays perpendicular to the tangent.
-template <class V>
-V transported(const V& normal, const V& from, const V& to) {
+inline Vec3 transported(const Vec3& normal, const Vec3& from, const Vec3& to) {
   // The turn from a to b takes v to v - (a + b) (a + b).v / (1 + a.b) + 2 b (a.v): no angle is needed.
-  using Real = typename V::value_type;
-  const Real cosine = glm::dot(from, to);
-  V carried = normal;
-  // Where it is a half turn, the quotient is rounding alone.
-  if (1 + cosine > 100 * std::numeric_limits<Real>::epsilon()) {
-    const V sum = from + to;
-    carried += to * (2 * glm::dot(from, normal)) - sum * (glm::dot(sum, normal) / (1 + cosine));
+  const double cosine = glm::dot(from, to);
+  Vec3 carried = normal;
+  if (cosine > -1.0 + 1e-9) {
+    const Vec3 sum = from + to;
+    carried += to * (2.0 * glm::dot(from, normal)) - sum * (glm::dot(sum, normal) / (1.0 + cosine));
   }
   // Rounding would add up over thousands of rings.
   carried -= to * glm::dot(carried, to);

@@ -17,6 +17,16 @@ constexpr float kRingsMax = 24.0f;
 // Cosine beyond which a line turns back on itself: the arc then goes round sideways.
 constexpr float kHairpin = -0.9f;
 
+/// Field by field: copying a whole point would wait for its parts to be written.
+void add_point(std::vector<LinePoint>& points, const Vec3f& position, const Vec3f& along, float radius,
+               std::uint32_t node) {
+  LinePoint& point = points.emplace_back();
+  point.position = position;
+  point.along = along;
+  point.radius = radius;
+  point.node = node;
+}
+
 /// Points of the quadratic Bezier curve with its control point at the knot: it leaves both stretches along
 /// their own direction.
 void round_bend(const Knot& before, const Knot& knot, const Knot& next, std::vector<LinePoint>& points) {
@@ -31,8 +41,8 @@ void round_bend(const Knot& before, const Knot& knot, const Knot& next, std::vec
     const Vec3f offset =
         knot.along * (-reach * s * s) + next.along * (reach * t * t) + aside * (4.0f * s * t);
     const Vec3f derivative = knot.along * s + next.along * t + aside * (2.0f / reach * (s - t));
-    points.push_back({knot.position + offset, normalized_or(derivative, knot.along),
-                      radius_in * s * s + knot.radius * 2.0f * s * t + radius_out * t * t, knot.node});
+    add_point(points, knot.position + offset, normalized_or(derivative, knot.along),
+              radius_in * s * s + knot.radius * 2.0f * s * t + radius_out * t * t, knot.node);
   }
 }
 
@@ -42,11 +52,12 @@ void trace_polyline(std::span<const Knot> knots, std::vector<LinePoint>& points)
     if (knot.rings > 1) {
       round_bend(knots[i - 1], knot, knots[i + 1], points);
     } else {
-      points.push_back({knot.position, normalized_or(knot.along + knots[i + 1].along, knot.along),
-                        knot.radius, knot.node});
+      add_point(points, knot.position, normalized_or(knot.along + knots[i + 1].along, knot.along),
+                knot.radius, knot.node);
     }
   }
-  points.push_back({knots.back().position, knots.back().along, knots.back().radius, knots.back().node});
+  const Knot& tip = knots.back();
+  add_point(points, tip.position, tip.along, tip.radius, tip.node);
 }
 
 /// Cubic Hermite curves with the spline's tangents; the width changes evenly.
@@ -66,8 +77,8 @@ void trace_spline(std::span<const Knot> knots, std::vector<LinePoint>& points) {
                              to * (t * t * (3.0f - 2.0f * t)) - end * (t * t * s);
       const Vec3f derivative =
           (to - from) * (6.0f * s * t) + start * (s * (s - 2.0f * t)) + end * (t * (t - 2.0f * s));
-      points.push_back({position, normalized_or(derivative, knots[i].along),
-                        glm::mix(knots[i - 1].radius, knots[i].radius, t), knots[i].node});
+      add_point(points, position, normalized_or(derivative, knots[i].along),
+                glm::mix(knots[i - 1].radius, knots[i].radius, t), knots[i].node);
     }
   }
 }
@@ -125,7 +136,7 @@ Vec3f spline_tangent(std::span<const Knot> knots, std::size_t i) {
 }
 
 void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points) {
-  points.push_back({knots[0].position, knots[0].along, knots[0].radius, knots[0].node});
+  add_point(points, knots[0].position, knots[0].along, knots[0].radius, knots[0].node);
   if (line == CentreLine::polyline) {
     trace_polyline(knots, points);
   } else {

@@ -39,6 +39,38 @@ const Vec2f* unit_circle(std::uint32_t sides) {
   return &circles.points[sides * (sides - 1) / 2];
 }
 
+/// Unit vectors along a tube's line and across it.
+struct Frame {
+  Vec3f along;
+  Vec3f side;
+  Vec3f across;
+
+  void set(const Vec3f& new_along, const Vec3f& new_side) {
+    along = new_along;
+    side = new_side;
+    across = glm::cross(along, side);
+  }
+
+  /// Carries it on without twist to where the line runs along `next` (parallel transport).
+  void turn_to(const Vec3f& next) {
+    // The turn from a to b takes v, square to a, to v - (a + b) b.v / (1 + a.b). Half a turn leaves it.
+    const float cosine = glm::dot(along, next);
+    Vec3f carried = side;
+    if (cosine > -0.9999f) carried -= (along + next) * (glm::dot(next, side) / (1.0f + cosine));
+    // A step of Newton's: rounding would add up over thousands of rings.
+    set(next, carried * (1.5f - 0.5f * glm::dot(carried, carried)));
+  }
+};
+
+/// A unit vector square to a line's direction, found without a branch: any_perpendicular() goes a way of its
+/// own for each twig, which the processor does not foresee.
+/// T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+Vec3f square_to(const Vec3f& along) {
+  const float sign = std::copysign(1.0f, along.z);
+  const float a = -1.0f / (sign + along.z);
+  return {along.x * along.y * a, sign + along.y * along.y * a, -along.y};
+}
+
 /// Writes tubes into their parts of the mesh, one after the other.
 class TubeWriter {
  public:
@@ -56,8 +88,7 @@ class TubeWriter {
     flare_ = trace_tube(plan_, *tube_, knots_, points_);
     vertex_ = tube_->first_vertex;
     triangle_ = tube_->first_triangle;
-    along_ = knots_[0].along;
-    side_ = any_perpendicular(along_);
+    frame_.set(knots_[0].along, square_to(knots_[0].along));
     v_ = 0.0f;
     from_base_ = 0.0f;
     if (tube_->collar > 0) write_collar(fork);
@@ -127,15 +158,15 @@ class TubeWriter {
     const Knot& end = knots_[1];
     const std::uint32_t sides = tube_->sides;
     const double radius = knots_[0].radius;
-    const Vec3 along(along_);
+    const Vec3 along(frame_.along);
     Lateral lateral{.along = along, .length = end.length, .radius = radius};
     if (plan_.line == CentreLine::catmull_rom)
       lateral.bow = Vec3(spline_tangent(knots_, 1) - end.along * end.length);
     // A corner in the plane of the fork: the collar is the same on both sides.
     const Vec3 up = fork.along - along * glm::dot(fork.along, along);
-    Vec3 side = normalized_or(up, Vec3(side_), 1e-3);
+    Vec3 side = normalized_or(up, Vec3(frame_.side), 1e-3);
     side = glm::normalize(side - along * glm::dot(side, along));
-    side_ = Vec3f(side);
+    frame_.set(frame_.along, Vec3f(side));
 
     const Vec3 across = glm::cross(along, side);
     const Vec2f* circle = unit_circle(sides);
@@ -171,8 +202,7 @@ class TubeWriter {
       if (i > 0) {
         v_ += length / (std::numbers::pi_v<float> * (point.radius + low.radius));
         from_base_ += length;
-        side_ = transported(side_, along_, point.along);
-        along_ = point.along;
+        frame_.turn_to(point.along);
       }
       if (i < count && !(i == 0 && tube_->collar > 0)) {
         const float both = length + next_length;
@@ -207,14 +237,13 @@ class TubeWriter {
   template <std::uint32_t Sides>
   void write_ring(const LinePoint& point, float slope, std::uint32_t node) {
     const std::uint32_t sides = side_count<Sides>();
-    const Vec3f across = glm::cross(along_, side_);
     const float shorten = 1.0f / std::sqrt(1.0f + slope * slope);
     const Vec3f center = point.position;
-    const Vec3f side_offset = side_ * point.radius;
-    const Vec3f across_offset = across * point.radius;
-    const Vec3f lean = along_ * (slope * shorten);
-    const Vec3f side_normal = side_ * shorten;
-    const Vec3f across_normal = across * shorten;
+    const Vec3f side_offset = frame_.side * point.radius;
+    const Vec3f across_offset = frame_.across * point.radius;
+    const Vec3f lean = frame_.along * (slope * shorten);
+    const Vec3f side_normal = frame_.side * shorten;
+    const Vec3f across_normal = frame_.across * shorten;
     const Vec2f* circle = circle_;
     const float step = 1.0f / static_cast<float>(sides);
     const float v = v_;
@@ -236,16 +265,15 @@ class TubeWriter {
   }
 
   void write_flared_ring(const LinePoint& point, std::uint32_t sides, std::uint32_t node) {
-    const Vec3f across = glm::cross(along_, side_);
     for (std::uint32_t i = 0; i <= sides; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i % sides) / sides;
       const auto cosine = static_cast<float>(std::cos(angle));
       const auto sine = static_cast<float>(std::sin(angle));
-      const Vec3f outwards = side_ * cosine + across * sine;
-      const Vec3f around = across * cosine - side_ * sine;
+      const Vec3f outwards = frame_.side * cosine + frame_.across * sine;
+      const Vec3f around = frame_.across * cosine - frame_.side * sine;
       const RootFlare::Widening wide = flare_.at(from_base_ / flare_.height, angle);
       const Vec3f normal = outwards - around * static_cast<float>(wide.by_angle / wide.factor) -
-                           along_ * static_cast<float>(wide.by_share * point.radius / flare_.height);
+                           frame_.along * static_cast<float>(wide.by_share * point.radius / flare_.height);
       set_vertex(vertex_++, point.position + outwards * (point.radius * static_cast<float>(wide.factor)),
                  normal, static_cast<float>(i) / static_cast<float>(sides), v_, node);
     }
@@ -260,7 +288,7 @@ class TubeWriter {
     if (tube_->has_round_tip()) {
       const float v = v_;
       LinePoint ring = last;
-      ring.position += along_ * (kTipRing * last.radius);
+      ring.position += frame_.along * (kTipRing * last.radius);
       ring.radius *= kTipRingRadius;
       v_ += kTipRing / (2.0f * std::numbers::pi_v<float>);
       write_ring<Sides>(ring, 1.0f, last.node);
@@ -269,13 +297,13 @@ class TubeWriter {
       length = kTipLength * last.radius;
     }
     const auto ring = static_cast<std::uint32_t>(vertex_ - (sides + 1));
-    const Vec3f apex = last.position + along_ * length;
+    const Vec3f apex = last.position + frame_.along * length;
     const float v = v_ + length / (2.0f * std::numbers::pi_v<float> * last.radius);
     // Between the sides, and half forwards unless the tip is as slim as its branch.
     const float share = tube_->is_pointed ? 1.0f : std::numbers::sqrt2_v<float> / 2.0f;
-    const Vec3f forwards = along_ * (tube_->is_pointed ? 0.0f : share);
-    const Vec3f side_normal = side_ * share;
-    const Vec3f across_normal = glm::cross(along_, side_) * share;
+    const Vec3f forwards = frame_.along * (tube_->is_pointed ? 0.0f : share);
+    const Vec3f side_normal = frame_.side * share;
+    const Vec3f across_normal = frame_.across * share;
     const Vec2f* middles = middles_;
     Vec3f* positions = mesh_.positions.data() + vertex_;
     Vec3f* normals = mesh_.normals.data() + vertex_;
@@ -318,8 +346,7 @@ class TubeWriter {
   const Vec2f* middles_ = nullptr;
   std::size_t vertex_ = 0;  // the next one
   std::size_t triangle_ = 0;
-  Vec3f along_{0.0f};  // of the last ring
-  Vec3f side_{0.0f};
+  Frame frame_;  // of the last ring
   float v_ = 0.0f;
   float from_base_ = 0.0f;
 };

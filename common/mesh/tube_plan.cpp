@@ -175,7 +175,7 @@ class Planner {
     const bool ends = axis.base + 1 == bearer.end();
     const std::uint32_t low = ends ? axis.base - 1 : axis.base;
     const Vec3f step = axes_.points[low + 1].position - axes_.points[low].position;
-    const Vec3f along = normalized_or(step, Vec3f(kUp), 1e-12);
+    const Vec3f along = normalized_or(step, Vec3f(kUp), 1e-12f);
     const float height = knot.length * glm::dot(knot.along, along);
     return !(ends && height > 0.0f) && knot.length * knot.length - height * height < edge * edge;
   }

@@ -88,6 +88,21 @@ TEST_CASE(
   CHECK(draft->sky.visibility.empty());
 }
 
+TEST_CASE("workshop: a draft is written into the memory of the one before") {
+  Workshop workshop([] {});
+  workshop.order({.number = 1, .job = job_of<growth::Engine>(8), .is_draft = true});
+  const auto first = awaited(workshop);
+  REQUIRE(first);
+  const Vec3f* memory = first->mesh.positions.data();
+  const auto positions = first->mesh.positions;
+  workshop.reuse(std::move(first->mesh));
+  workshop.order({.number = 2, .job = first->job, .run = first->run, .is_draft = true});
+  const auto second = awaited(workshop);
+  REQUIRE(second);
+  CHECK(second->mesh.positions.data() == memory);
+  CHECK(second->mesh.positions == positions);
+}
+
 TEST_CASE("workshop: the newest order wins and a long run is stopped for it") {
   SlowEngine::stopped = 0;
   Workshop workshop([] {});
