@@ -4,6 +4,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -151,6 +152,8 @@ void print_outcome(const SweepFindings& findings, const SweepFlags& flags, std::
 void sweep(const SweepFlags& flags, const Session& session) {
   const SweepPlan plan = plan_of(flags, session);
   const ThreadLimit limit(flags.running.threads);
+  // Where Mesa draws in software, by as many threads, too.
+  if (flags.running.threads > 0) setenv("LP_NUM_THREADS", std::to_string(flags.running.threads).c_str(), 0);
   SweepFolder folder(flags.folder);
   folder.lock();
   folder.write(kPlanFile, plan_text(plan));
