@@ -4,6 +4,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -224,6 +225,8 @@ void collect(const SweepFlags& flags, const Session& session) {
 void sweep(const SweepFlags& flags, const Session& session) {
   check_flags(flags);
   const ThreadLimit limit(flags.running.threads);
+  // Where Mesa draws in software, by as many threads, too.
+  if (flags.running.threads > 0) setenv("LP_NUM_THREADS", std::to_string(flags.running.threads).c_str(), 0);
   if (flags.collects) return collect(flags, session);
   const SweepPlan plan = plan_of(flags, session);
   SweepFolder folder(flags.folder);

@@ -67,6 +67,7 @@ class Studio {
     RenderOptions options;
     options.width = options.height = side_;
     options.room_for = corners;
+    options.with_occlusion = false;  // else drawing takes longer than growing, for shades too fine to be seen
     std::ostringstream png;
     write_png(renderer_->render({.mesh = &mesh, .skeleton = &tree}, options), png);
     return std::move(png).str();
