@@ -29,6 +29,7 @@ void add_stats(CLI::App& program, const Session& session);
 void add_compare(CLI::App& program, const Session& session);
 void add_sweep(CLI::App& program, const Session& session);
 void add_sweep_run(CLI::App& program, const Session& session);
+void add_sweep_task(CLI::App& program, const Session& session);
 void add_convert(CLI::App& program);
 void add_presets(CLI::App& program);
 void add_params(CLI::App& program, const Session& session);

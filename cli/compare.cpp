@@ -102,7 +102,7 @@ void check_flags(const CompareFlags& flags) {
 
 Source source_of(const std::string& input, const CompareFlags& flags, const Session& session) {
   Source source{input, {}, std::nullopt};
-  if (!is_config(input)) {
+  if (is_skeleton_file(input)) {
     InputFlags reading = flags.reading;
     reading.configuring = {};
     source.tree = read_living(input, reading, session);
@@ -331,7 +331,8 @@ void add_compare(CLI::App& program, const Session& session) {
       "compare", "Set trees against each other: pictures, metrics, distances, one report");
   command
       ->add_option("input", flags->inputs,
-                   "Two or more: a preset or TOML file, or a skeleton file (" + skeleton_endings() + ")")
+                   "Two or more: a preset or TOML file, a skeleton file (" + skeleton_endings() +
+                       "), or a mesh that ramify made (.glb, .gltf)")
       ->type_name("INPUT")
       ->required();
   command->add_option("-o,--output", flags->folder, "Folder for report.html, its data, plots and pictures")

@@ -38,10 +38,6 @@ Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, 
 
 Grown read_grown(const std::string& input, const InputFlags& flags, bool with_history,
                  const Session& session) {
-  if (is_mesh(input)) {
-    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
-                                 input, skeleton_endings()));
-  }
   const std::vector<Override> overrides = flags.configuring.overrides();
   if (is_skeleton_file(input)) {
     refuse(overrides, input);
@@ -68,10 +64,8 @@ Skeleton read_living(const std::string& input, const InputFlags& flags, const Se
 }
 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
-    refuse(flags.configuring.overrides(), input);
+  if (is_mesh(input) && flags.configuring.overrides().empty() && !flags.at_step) {
     if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
-    if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
     return {std::nullopt, read_gltf(read_file(input), input)};
   }
   Grown grown = read_grown(input, flags, flags.at_step.has_value(), session);

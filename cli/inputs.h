@@ -40,17 +40,17 @@ Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, 
 /// Whether the input is a preset's name or a config file: what no other ending tells of.
 bool is_config(const std::string& input);
 
-/// The skeleton of a config or a skeleton file; `with_history`: and all that was ever shed, where the input
-/// knows. Whatever step flags.at_step asks for. Throws InputError for a mesh, and for flags that do not go
-/// with the kind of input.
+/// The skeleton of a config, a skeleton file or, made again from the config inside, a mesh of ramify's;
+/// `with_history`: and all that was ever shed, where the input knows. Whatever step flags.at_step asks for.
+/// Throws InputError for other meshes, and for flags that do not go with the kind of input.
 Grown read_grown(const std::string& input, const InputFlags& flags, bool with_history,
                  const Session& session);
 
-/// The skeleton of a config or a skeleton file, alive at the step asked for. Throws InputError for a mesh,
-/// and for flags that do not go with the kind of input.
+/// What of read_grown() is alive at the step asked for.
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session);
 
-/// Reads, or makes, one tree. Throws InputError for flags that do not go with the kind of input.
+/// Reads, or makes, one tree. A mesh is shown as it is in its file, unless flags ask for another tree of its
+/// config. Throws InputError for flags that do not go with the kind of input.
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session);
 
 }  // namespace ramify::cli

@@ -86,6 +86,7 @@ int run(int argc, char** argv) {
   add_compare(program, session);
   add_sweep(program, session);
   add_sweep_run(program, session);
+  add_sweep_task(program, session);
   add_convert(program);
   add_presets(program);
   add_params(program, session);

@@ -23,6 +23,8 @@ struct RenderFlags {
   std::string output;
   std::string size = "1024x1024";
   std::string view = "front";
+  std::string look_at;  // X,Y,Z; empty: all of the tree
+  double across = 0.0;  // metres; 0: kAcross
   std::string style = "lit";
   std::string color_by;
   std::string background;
@@ -36,6 +38,19 @@ struct RenderFlags {
   std::size_t images_a_row() const { return columns > 0 ? static_cast<std::size_t>(columns) : inputs.size(); }
   bool is_film() const { return !film.folder.empty(); }
 };
+
+// Metres that a close-up shows where nothing else is asked for.
+constexpr double kAcross = 1.0;
+
+std::optional<CloseUp> close_up_of(const RenderFlags& flags) {
+  if (flags.look_at.empty()) {
+    if (flags.across > 0.0) throw InputError("--across: goes with --look-at");
+    return std::nullopt;
+  }
+  const std::optional<Vec3> point = parse_point(flags.look_at);
+  if (!point) throw InputError(fmt::format("--look-at: '{}' (X,Y,Z in metres)", flags.look_at));
+  return CloseUp{*point, flags.across > 0.0 ? flags.across : kAcross};
+}
 
 RenderStyle style_named(const std::string& name) {
   if (name == "lit") return RenderStyle::lit;
@@ -58,6 +73,7 @@ RenderOptions options_of(const RenderFlags& flags) {
   if (!view)
     throw InputError(fmt::format("--view: '{}' (front | side | top | AZ,EL in degrees)", flags.view));
   options.view = *view;
+  options.close_up = close_up_of(flags);
   options.style = style_named(flags.style);
   options.color_by = flags.color_by;
   options.with_scale = flags.with_scale;
@@ -184,6 +200,15 @@ void add_render(CLI::App& program, const Session& session) {
   command->add_option("--view", flags->view, "front, side, top, or azimuth and elevation in degrees")
       ->type_name("VIEW")
       ->capture_default_str();
+  command
+      ->add_option("--look-at", flags->look_at,
+                   "A close-up of this place, metres from the root's origin; else all of the tree")
+      ->type_name("X,Y,Z");
+  command
+      ->add_option("--across", flags->across,
+                   fmt::format("Metres that a close-up shows across its shorter side [{:g}]", kAcross))
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-4, 1e4));
   command->add_option("--style", flags->style, "lit, schematic (black on white) or skeleton (lines)")
       ->type_name("STYLE")
       ->capture_default_str();

@@ -8,9 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/experiment/plots.h"
+#include "cli/experiment/slurm_job.h"
+#include "cli/experiment/sweep_figures.h"
 #include "cli/experiment/sweep_folder.h"
+#include "cli/experiment/sweep_pictures.h"
 #include "cli/experiment/sweep_plan.h"
 #include "cli/experiment/sweep_pool.h"
+#include "cli/experiment/sweep_report.h"
 #include "cli/experiment/sweep_results.h"
 #include "cli/experiment/sweep_run.h"
 #include "cli/experiment/value_list.h"
@@ -18,6 +23,8 @@
 #include "cli/progress_bar.h"
 #include "cli/text.h"
 #include "common/base/errors.h"
+#include "common/base/files.h"
+#include "common/base/image.h"
 #include "common/base/parallel.h"
 
 namespace ramify::cli {
@@ -41,6 +48,9 @@ struct SweepFlags {
   std::string config;
   std::vector<std::string> axes;
   std::string folder;
+  bool on_slurm = false;
+  bool collects = false;
+  SlurmOptions slurm;
   ConfigFlags configuring;
   RunFlags running;
 };
@@ -57,6 +67,26 @@ SweepPlan plan_of(const SweepFlags& flags, const Session& session) {
   SweepPlan plan = plan_sweep(session.registry, flags.config, flags.configuring.overrides(), axes);
   plan.command = command_line(flags, plan);
   return plan;
+}
+
+void check_flags(const SweepFlags& flags) {
+  if (flags.on_slurm && flags.collects) {
+    throw InputError("--slurm, --collect: one of them (submit, then collect)");
+  }
+  if (!flags.on_slurm && flags.slurm.tasks > 0) throw InputError("--tasks: goes with --slurm");
+  if (!flags.on_slurm && !flags.slurm.sbatch_options.empty()) {
+    throw InputError("--sbatch-options: goes with --slurm");
+  }
+  if (flags.slurm.sbatch_options.find('\n') != std::string::npos) {
+    throw InputError("--sbatch-options: is more than a line");
+  }
+  const std::vector<Override> overrides = flags.configuring.overrides();
+  if (flags.collects && flags.config.empty() && flags.axes.empty()) {
+    if (!overrides.empty()) throw InputError(fmt::format("{}: goes with CONFIG", overrides.front().flag));
+    return;  // the folder tells them
+  }
+  if (flags.config.empty()) throw InputError("config is required");
+  if (flags.axes.empty()) throw InputError("--vary is required");
 }
 
 /// Makes the runs that are not finished. Throws Interrupted after Ctrl-C.
@@ -76,35 +106,133 @@ void make_missing(const SweepPlan& plan, const SweepFolder& folder, const SweepF
                                 plan.runs.size())};
 }
 
-void print_outcome(const SweepResults& results, const SweepFlags& flags, std::size_t made) {
-  const std::string table = (std::filesystem::path(flags.folder) / "results.csv").string();
-  if (flags.running.is_json) {
-    const nlohmann::ordered_json object = {{"runs", results.rows.size()},
-                                           {"done", results.count_done()},
-                                           {"failed", results.count_failed()},
-                                           {"made_now", made},
-                                           {"results", table}};
-    fmt::print("{}\n", object.dump());
-  } else if (!flags.running.is_quiet) {
-    fmt::print("{} runs, {} of them made now\n  {}\n", grouped(results.rows.size()), grouped(made), table);
+/// Draws the trees, if there is anything to draw with, and their contact sheet.
+void draw_pictures(SweepFindings& findings, const SweepFolder& folder, const Session& session,
+                   ProgressBar& bar) {
+  findings.picture_side = picture_side(findings.results.rows.size());
+  try {
+    findings.pictures =
+        draw_runs(findings.results, folder, session, [&](std::size_t done, std::size_t total) {
+          bar.show({"drawing", static_cast<double>(done), static_cast<double>(total), "picture"});
+        });
+    folder.write("contact-sheet.png", png_bytes(labelled_sheet(findings.results, findings.pictures)));
+  } catch (const GraphicsError& error) {
+    findings.notes.push_back(fmt::format("There are no pictures: {}.", error.what()));
+    findings.pictures.assign(findings.results.rows.size(), "");
   }
 }
 
+/// Draws the figures where there is gnuplot, and keeps the SVGs for the report.
+void draw_figures(SweepFindings& findings, const SweepFolder& folder) {
+  findings.responses = responses_of(findings.results);
+  findings.has_gnuplot = has_gnuplot();
+  if (!findings.has_gnuplot) return;
+  const std::vector<Plot> lines = lines_of(findings.responses);
+  const std::vector<HeatMap> maps = maps_of(findings.responses);
+  const std::filesystem::path plots = folder.path() / "plots";
+  std::filesystem::create_directory(plots);
+  draw_plots(lines, plots);
+  draw_heat_maps(maps, plots);
+  const auto keep = [&](const std::string& name) {
+    findings.figure_svgs.push_back(read_file(plots / (name + ".svg")));
+  };
+  for (const Plot& plot : lines) keep(plot.name);
+  for (const HeatMap& map : maps) keep(map.name);
+}
+
+/// Writes what is told of the runs.
+SweepFindings report(const SweepPlan& plan, const SweepFolder& folder, const SweepFlags& flags,
+                     const Session& session) {
+  ProgressBar bar(flags.running.is_quiet);
+  SweepFindings findings;
+  findings.results = gather(plan, folder.runs());
+  folder.write("results.csv", results_csv(findings.results));
+  draw_pictures(findings, folder, session, bar);
+  draw_figures(findings, folder);
+  folder.write("report.html", sweep_report(findings));
+  return findings;
+}
+
+void print_outcome(const SweepFindings& findings, const SweepFlags& flags, std::size_t made) {
+  const std::filesystem::path folder = flags.folder;
+  const SweepResults& results = findings.results;
+  if (flags.running.is_json) {
+    const nlohmann::ordered_json object = {{"report", (folder / "report.html").string()},
+                                           {"results", (folder / "results.csv").string()},
+                                           {"gnuplot", findings.has_gnuplot},
+                                           {"runs", results.rows.size()},
+                                           {"done", results.count_done()},
+                                           {"failed", results.rows.size() - results.count_done()},
+                                           {"made_now", made}};
+    fmt::print("{}\n", object.dump());
+  } else if (!flags.running.is_quiet) {
+    fmt::print("{}\n{} made now\n  {}\n  {}\n", sweep_in_words(findings), grouped(made),
+               (folder / "results.csv").string(), (folder / "report.html").string());
+  }
+}
+
+/// Hands the runs that are not finished to Slurm, one at least.
+void submit_missing(const SweepPlan& plan, const SweepFolder& folder, std::span<const std::size_t> missing,
+                    const SweepFlags& flags) {
+  SlurmOptions options = flags.slurm;
+  options.threads = flags.running.threads;
+  const SlurmJob job = submit(plan, missing, folder.path(), options);
+  if (flags.running.is_json) {
+    const nlohmann::ordered_json object = {{"runs", plan.runs.size()},
+                                           {"submitted", missing.size()},
+                                           {"job", job.id},
+                                           {"tasks", job.tasks},
+                                           {"folder", job.folder.string()}};
+    fmt::print("{}\n", object.dump());
+  } else if (!flags.running.is_quiet) {
+    fmt::print(
+        "job {}: {} of {} runs in {} tasks\n  squeue --job {} tells how far it is\n  ramify sweep -o {} "
+        "--collect gathers\n",
+        job.id, grouped(missing.size()), grouped(plan.runs.size()), job.tasks, job.id,
+        shell_quoted(flags.folder));
+  }
+}
+
+/// Reports what there is. `done_before`: runs that were finished when this began.
+void finish(const SweepPlan& plan, const SweepFolder& folder, const SweepFlags& flags,
+            std::size_t done_before, const Session& session) {
+  const SweepFindings findings = report(plan, folder, flags, session);
+  const SweepResults& results = findings.results;
+  print_outcome(findings, flags, results.count_done() - done_before);
+  const std::size_t missing = results.rows.size() - results.count_done() - results.count_failed();
+  if (missing > 0) throw RunError(missing_text(results, folder.path()));
+  if (results.count_failed() > 0) {
+    throw RunError(fmt::format("{} of {} runs failed ({} says why)", results.count_failed(),
+                               results.rows.size(), (folder.path() / "results.csv").string()));
+  }
+}
+
+/// What there is of a sweep that other processes make, or made.
+void collect(const SweepFlags& flags, const Session& session) {
+  const std::filesystem::path plan_file = std::filesystem::path(flags.folder) / kPlanFile;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(plan_file, error)) {
+    throw InputError(fmt::format("--collect: {}: no sweep is there", flags.folder));
+  }
+  const SweepPlan plan =
+      flags.config.empty() ? read_plan(read_file(plan_file), plan_file.string()) : plan_of(flags, session);
+  const SweepFolder folder(flags.folder);
+  finish(plan, folder, flags, gather(plan, folder.runs()).count_done(), session);
+}
+
 void sweep(const SweepFlags& flags, const Session& session) {
+  check_flags(flags);
+  const ThreadLimit limit(flags.running.threads);
+  if (flags.collects) return collect(flags, session);
   const SweepPlan plan = plan_of(flags, session);
   SweepFolder folder(flags.folder);
-  folder.lock();
+  if (!flags.on_slurm) folder.lock();
   folder.write(kPlanFile, plan_text(plan));
-  const std::size_t done_before = gather(plan, folder.runs()).count_done();
+  const SweepResults before = gather(plan, folder.runs());
+  const std::vector<std::size_t> missing = unfinished(before);
+  if (flags.on_slurm && !missing.empty()) return submit_missing(plan, folder, missing, flags);
   make_missing(plan, folder, flags, session);
-  const SweepResults results = gather(plan, folder.runs());
-  folder.write("results.csv", results_csv(results));
-  print_outcome(results, flags, results.count_done() - done_before);
-  const std::size_t failed = results.rows.size() - results.count_done();
-  if (failed > 0) {
-    throw RunError(fmt::format("{} of {} runs failed ({} says why)", failed, results.rows.size(),
-                               (folder.path() / "results.csv").string()));
-  }
+  finish(plan, folder, flags, before.count_done(), session);
 }
 
 struct SweepRunFlags {
@@ -121,6 +249,22 @@ void sweep_run(const SweepRunFlags& flags, const Session& session) {
   make_runs(load_job(session.registry, flags.config), flags.at_steps, flags.runs, session);
 }
 
+void add_cluster_flags(CLI::App& command, SweepFlags& flags) {
+  command.add_flag("--slurm", flags.on_slurm,
+                   "Hand the runs to Slurm as an array job; DIR must be on a disk that its machines share");
+  command
+      .add_option("--tasks", flags.slurm.tasks,
+                  "With --slurm: tasks that share the runs, 16 at most if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, static_cast<int>(kMaxRuns)));
+  command
+      .add_option("--sbatch-options", flags.slurm.sbatch_options,
+                  "With --slurm: more options of sbatch, such as '--partition=long --time=2:00:00'")
+      ->type_name("TEXT");
+  command.add_flag("--collect", flags.collects,
+                   "Only gather the runs that are there; CONFIG and --vary may be left out");
+}
+
 }  // namespace
 
 void add_sweep(CLI::App& program, const Session& session) {
@@ -129,18 +273,17 @@ void add_sweep(CLI::App& program, const Session& session) {
       "sweep", "A run for each combination of values, gathered in one table and report");
   command->footer(kExamples);
   command->add_option("config", flags->config, "A preset (`ramify presets`) or a TOML file")
-      ->type_name("CONFIG")
-      ->required();
+      ->type_name("CONFIG");
   command
       ->add_option("--vary", flags->axes,
                    "Give a parameter these values, a,b,c or from:to:step; seed and steps, too (repeatable: "
                    "every combination is made)")
       ->type_name("KEY=LIST")
-      ->allow_extra_args(false)
-      ->required();
+      ->allow_extra_args(false);
   command->add_option("-o,--output", flags->folder, "Folder for the runs and what is gathered from them")
       ->type_name("DIR")
       ->required();
+  add_cluster_flags(*command, *flags);
   flags->configuring.add_to(*command);
   flags->running.add_to(*command);
   command->callback([flags, &session] { sweep(*flags, session); });

@@ -151,7 +151,8 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
 
   ViewDirection view = options.view;
   view.is_parallel = view.is_parallel || options.style != RenderStyle::lit;
-  Framer framer(view, static_cast<double>(options.width) / options.height, kMargin);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  Framer framer(view, aspect, kMargin);
   include_scene(scene, options, framer);
   if (options.with_scale) {
     const Vec3 base = base_of(scene);
@@ -168,7 +169,9 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
     painter.cast_shadows(scene, sun_behind(view), shadow_map_size(options, most));
   }
 
-  const Camera camera = framer.camera(painter.reach());
+  const Camera camera = options.close_up ? close_up_camera(view, aspect, *options.close_up,
+                                                           framer.extent().low.z - painter.reach())
+                                         : framer.camera(painter.reach());
   Image image = implementation_->draw(camera, options);
   require_no_gl_error("drawing the picture");
   return image;

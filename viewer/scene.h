@@ -27,6 +27,7 @@ struct RenderOptions {
   int width = 1024;
   int height = 1024;
   ViewDirection view;
+  std::optional<CloseUp> close_up;  // else all of the scene is in the picture
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
   std::string color_by;       // an attribute (attribute_colors.h); empty: bark if lit, black if schematic

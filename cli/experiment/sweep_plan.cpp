@@ -32,7 +32,8 @@ void check_axes(std::span<const Axis> axes, std::span<const Override> overrides)
     throw InputError(fmt::format("{}: {} is varied, too (one of them)", given.flag, given.key));
   }
   if (runs > static_cast<double>(kMaxRuns)) {
-    throw InputError(fmt::format("--vary: {:.3g} combinations (at most {})", runs, grouped(kMaxRuns)));
+    throw InputError(
+        fmt::format("--vary: {} combinations (at most {})", short_number(runs), grouped(kMaxRuns)));
   }
 }
 

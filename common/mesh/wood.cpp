@@ -21,8 +21,8 @@ Material bark_material() {
 
 }  // namespace
 
-Mesh wood_of_size(std::size_t vertices, std::size_t triangles) {
-  Mesh mesh;
+Mesh wood_of_size(std::size_t vertices, std::size_t triangles, Mesh memory) {
+  Mesh mesh = emptied(std::move(memory));
   mesh.positions.resize(vertices);
   mesh.normals.resize(vertices);
   mesh.uvs.resize(vertices);

@@ -239,9 +239,9 @@ TEST_CASE("sweep: a run that fails has its row and does not stop the others") {
 
 TEST_CASE("sweep: of a tree whose later steps cannot be made the earlier ones are") {
   const Folder folder;
-  // With 300 MB of address space a small tree grows and a large one does not.
+  // In 250 MB of address space a small tree grows and a large one does not.
   const Outcome outcome =
-      run_shell("ulimit -v 400000; '" + program_path() + "' sweep p09-640k --vary steps=10,72 -o out --quiet",
+      run_shell("ulimit -v 250000; '" + program_path() + "' sweep p09-640k --vary steps=10,80 -o out --quiet",
                 folder.path().string());
   check_failure(outcome, 1, "1 of 2 runs failed (out/results.csv says why)\n");
   const Rows rows = rows_of(read_file(folder.file("out/results.csv")));
