@@ -154,7 +154,6 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
   Framer framer(view, aspect, kMargin);
   include_scene(scene, options, framer);
-  for (const Vec3f& point : options.room_for) framer.include(Vec3(point));
   if (options.with_scale) {
     const Vec3 base = base_of(scene);
     const Vec3 origin = framer.axes().coordinates(base);

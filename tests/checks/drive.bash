@@ -70,6 +70,17 @@ click() {
   sleep 0.15
 }
 
+# open_page NAME WIDGET: until the page has that widget; a busy window may miss a click.
+open_page() {
+  local i
+  for ((i = 0; i < 5; ++i)); do
+    click "page.$1"
+    sleep 0.5
+    awk -v name="$2" '$2 == name { is_there = $1 == "RECT" } END { exit !is_there }' "$log" && return
+  done
+  fail "the page $1 does not open"
+}
+
 # drag NAME FROM TO [STEPS [SECONDS]]: the mouse button held, in steps of so many seconds.
 drag() {
   local step x0 x1 y steps=${4:-8} pause=${5:-0.12}
