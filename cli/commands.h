@@ -19,7 +19,8 @@ struct Interrupted {
 /// What all commands share.
 struct Session {
   EngineRegistry registry;
-  std::stop_token stop;  // requested by Ctrl-C
+  std::stop_token stop;      // requested by Ctrl-C
+  std::string command_line;  // as it was typed, ready to be typed again
 };
 
 void add_generate(CLI::App& program, const Session& session);
@@ -28,6 +29,7 @@ void add_stats(CLI::App& program, const Session& session);
 void add_compare(CLI::App& program, const Session& session);
 void add_sweep(CLI::App& program, const Session& session);
 void add_sweep_run(CLI::App& program, const Session& session);
+void add_sweep_task(CLI::App& program, const Session& session);
 void add_convert(CLI::App& program);
 void add_presets(CLI::App& program);
 void add_params(CLI::App& program, const Session& session);

@@ -19,6 +19,7 @@
 #include "common/base/errors.h"
 #include "common/base/files.h"
 #include "common/base/parallel.h"
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/tree_mesh.h"
 #include "viewer/renderer.h"
 
@@ -101,7 +102,7 @@ void check_flags(const CompareFlags& flags) {
 
 Source source_of(const std::string& input, const CompareFlags& flags, const Session& session) {
   Source source{input, {}, std::nullopt};
-  if (!is_config(input)) {
+  if (is_skeleton_file(input)) {
     InputFlags reading = flags.reading;
     reading.configuring = {};
     source.tree = read_living(input, reading, session);
@@ -213,6 +214,7 @@ std::vector<TreePicture> draw(const std::vector<Source>& sources, const Grown& g
   const std::size_t total = sources.size() * std::size(kViews);
   std::vector<TreePicture> pictures;
   for (std::size_t i = 0; i < sources.size(); ++i) {
+    const Mesh obstacles = sources[i].job ? obstacle_mesh(*sources[i].job) : Mesh();
     for (const View& view : kViews) {
       bar.show({"drawing", static_cast<double>(pictures.size()), static_cast<double>(total), "picture"});
       RenderOptions options;
@@ -222,7 +224,8 @@ std::vector<TreePicture> draw(const std::vector<Source>& sources, const Grown& g
       options.room_for = room;
       options.with_scale = view.style == RenderStyle::schematic;
       std::ostringstream png;
-      write_png(renderer.render({.mesh = &meshes[i], .skeleton = &grown.first[i]}, options), png);
+      const Scene scene{.mesh = &meshes[i], .skeleton = &grown.first[i], .obstacles = &obstacles};
+      write_png(renderer.render(scene, options), png);
       const std::string name =
           fmt::format("{}-{}-{}.png", i + 1, file_stem(grown.subjects[i].label), view.name);
       const bool is_file = !sources[i].job;
@@ -328,7 +331,8 @@ void add_compare(CLI::App& program, const Session& session) {
       "compare", "Set trees against each other: pictures, metrics, distances, one report");
   command
       ->add_option("input", flags->inputs,
-                   "Two or more: a preset or TOML file, or a skeleton file (" + skeleton_endings() + ")")
+                   "Two or more: a preset or TOML file, a skeleton file (" + skeleton_endings() +
+                       "), or a mesh that ramify made (.glb, .gltf)")
       ->type_name("INPUT")
       ->required();
   command->add_option("-o,--output", flags->folder, "Folder for report.html, its data, plots and pictures")

@@ -10,6 +10,7 @@
 #include "common/config/job.h"
 #include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 
@@ -27,30 +28,6 @@ bool is_mesh(const std::string& input) {
   return ending == ".glb" || ending == ".gltf";
 }
 
-/// A skeleton and how its config wants it dressed.
-struct Grown {
-  Skeleton skeleton;
-  Looks looks;
-  std::uint64_t seed = 0;
-};
-
-Grown read_grown(const std::string& input, const InputFlags& flags, const Session& session) {
-  const std::vector<Override> overrides = flags.configuring.overrides();
-  if (is_skeleton_file(input)) {
-    refuse(overrides, input);
-    SkeletonFile file = read_skeleton(input, flags.skeleton);
-    if (!flags.running.is_quiet) note(file.notes);
-    return {living_at(file.skeleton, flags.at_step, input), {}, 0};
-  }
-  if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
-  const Job job = load_job(session.registry, input, overrides);
-  RunContext context;
-  context.stop = session.stop;
-  context.wants_history = flags.at_step.has_value();
-  RunResult run = run_with_progress(job, context, flags.running);
-  return {living_at(run.skeleton, flags.at_step, input), job.looks(), job.seed()};
-}
-
 }  // namespace
 
 Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, const std::string& input) {
@@ -59,31 +36,45 @@ Skeleton living_at(const Skeleton& skeleton, std::optional<std::uint32_t> step, 
   return cut_at_step(skeleton, *step);
 }
 
+Grown read_grown(const std::string& input, const InputFlags& flags, bool with_history,
+                 const Session& session) {
+  const std::vector<Override> overrides = flags.configuring.overrides();
+  if (is_skeleton_file(input)) {
+    refuse(overrides, input);
+    SkeletonFile file = read_skeleton(input, flags.skeleton);
+    if (!flags.running.is_quiet) note(file.notes);
+    return {std::move(file.skeleton)};
+  }
+  if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
+  const Job job = load_job(session.registry, input, overrides);
+  RunContext context;
+  context.stop = session.stop;
+  context.wants_history = with_history;
+  RunResult run = run_with_progress(job, context, flags.running);
+  return {std::move(run.skeleton), job.looks(), job.seed(), obstacle_mesh(job)};
+}
+
 bool is_config(const std::string& input) {
   return !is_mesh(input) && !is_skeleton_file(input);
 }
 
 Skeleton read_living(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
-    throw InputError(fmt::format("{}: a mesh has no skeleton (a config, a preset or a file ending in {})",
-                                 input, skeleton_endings()));
-  }
-  return read_grown(input, flags, session).skeleton;
+  const Grown grown = read_grown(input, flags, flags.at_step.has_value(), session);
+  return living_at(grown.skeleton, flags.at_step, input);
 }
 
 Tree read_tree(const std::string& input, const InputFlags& flags, const Session& session) {
-  if (is_mesh(input)) {
-    refuse(flags.configuring.overrides(), input);
+  if (is_mesh(input) && flags.configuring.overrides().empty() && !flags.at_step) {
     if (flags.skeleton.up) throw InputError(fmt::format("--up: {} is no skeleton file", input));
-    if (flags.at_step) throw InputError(fmt::format("--at-step: {} has no steps", input));
     return {std::nullopt, read_gltf(read_file(input), input)};
   }
-  Grown grown = read_grown(input, flags, session);
-  const ThreadLimit limit(flags.running.threads);
+  Grown grown = read_grown(input, flags, flags.at_step.has_value(), session);
   Tree tree;
-  tree.mesh = make_tree_mesh(grown.skeleton, grown.looks, grown.seed).mesh;
+  tree.skeleton = living_at(grown.skeleton, flags.at_step, input);
+  const ThreadLimit limit(flags.running.threads);
+  tree.mesh = make_tree_mesh(*tree.skeleton, grown.looks, grown.seed).mesh;
   for (const std::string& warning : tree.mesh.warnings) warn(warning);
-  tree.skeleton = std::move(grown.skeleton);
+  tree.obstacles = std::move(grown.obstacles);
   return tree;
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/text.h"
 #include "common/base/errors.h"
 #include "common/config/field.h"
 #include "common/config/provenance.h"
@@ -70,6 +71,8 @@ int run(int argc, char** argv) {
   const InterruptWatch watch;
   Session session;
   session.stop = watch.token();
+  session.command_line = "ramify";
+  for (int i = 1; i < argc; ++i) session.command_line += " " + shell_quoted(argv[i]);
   growth::register_engine(session.registry);
   pathplan::register_engine(session.registry);
 
@@ -83,6 +86,7 @@ int run(int argc, char** argv) {
   add_compare(program, session);
   add_sweep(program, session);
   add_sweep_run(program, session);
+  add_sweep_task(program, session);
   add_convert(program);
   add_presets(program);
   add_params(program, session);

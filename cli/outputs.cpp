@@ -14,6 +14,7 @@
 #include "common/format/skeleton_files.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/obj.h"
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/ply.h"
 #include "common/mesh/stl.h"
 #include "common/skeleton/passes.h"
@@ -67,7 +68,9 @@ bool is_ending_of(std::string_view ending, const std::string& path) {
 
 Image picture(const Results& results) {
   Renderer renderer;
-  return renderer.render({.mesh = &results.tree.mesh, .skeleton = &results.run.skeleton}, {});
+  const Mesh obstacles = obstacle_mesh(results.job);
+  return renderer.render(
+      {.mesh = &results.tree.mesh, .skeleton = &results.run.skeleton, .obstacles = &obstacles}, {});
 }
 
 std::vector<std::pair<std::string, double>> metrics_of(const Skeleton& skeleton) {

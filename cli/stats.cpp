@@ -122,7 +122,9 @@ void add_stats(CLI::App& program, const Session& session) {
   auto flags = std::make_shared<StatsFlags>();
   CLI::App* command = program.add_subcommand("stats", "Measure trees, beside what real trees have");
   command
-      ->add_option("input", flags->inputs, "A preset or TOML file, or a skeleton file: " + skeleton_endings())
+      ->add_option("input", flags->inputs,
+                   "A preset or TOML file, a skeleton file (" + skeleton_endings() +
+                       "), or a mesh that ramify made (.glb, .gltf)")
       ->type_name("INPUT")
       ->required();
   command->add_option("--at-step", flags->at_step, "The tree as it was after step K")

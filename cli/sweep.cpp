@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/experiment/plots.h"
+#include "cli/experiment/slurm_job.h"
 #include "cli/experiment/sweep_figures.h"
 #include "cli/experiment/sweep_folder.h"
 #include "cli/experiment/sweep_pictures.h"
@@ -48,6 +49,9 @@ struct SweepFlags {
   std::string config;
   std::vector<std::string> axes;
   std::string folder;
+  bool on_slurm = false;
+  bool collects = false;
+  SlurmOptions slurm;
   ConfigFlags configuring;
   RunFlags running;
 };
@@ -64,6 +68,26 @@ SweepPlan plan_of(const SweepFlags& flags, const Session& session) {
   SweepPlan plan = plan_sweep(session.registry, flags.config, flags.configuring.overrides(), axes);
   plan.command = command_line(flags, plan);
   return plan;
+}
+
+void check_flags(const SweepFlags& flags) {
+  if (flags.on_slurm && flags.collects) {
+    throw InputError("--slurm, --collect: one of them (submit, then collect)");
+  }
+  if (!flags.on_slurm && flags.slurm.tasks > 0) throw InputError("--tasks: goes with --slurm");
+  if (!flags.on_slurm && !flags.slurm.sbatch_options.empty()) {
+    throw InputError("--sbatch-options: goes with --slurm");
+  }
+  if (flags.slurm.sbatch_options.find('\n') != std::string::npos) {
+    throw InputError("--sbatch-options: is more than a line");
+  }
+  const std::vector<Override> overrides = flags.configuring.overrides();
+  if (flags.collects && flags.config.empty() && flags.axes.empty()) {
+    if (!overrides.empty()) throw InputError(fmt::format("{}: goes with CONFIG", overrides.front().flag));
+    return;  // the folder tells them
+  }
+  if (flags.config.empty()) throw InputError("config is required");
+  if (flags.axes.empty()) throw InputError("--vary is required");
 }
 
 /// Makes the runs that are not finished. Throws Interrupted after Ctrl-C.
@@ -149,23 +173,70 @@ void print_outcome(const SweepFindings& findings, const SweepFlags& flags, std::
   }
 }
 
+/// Hands the runs that are not finished to Slurm, one at least.
+void submit_missing(const SweepPlan& plan, const SweepFolder& folder, std::span<const std::size_t> missing,
+                    const SweepFlags& flags) {
+  SlurmOptions options = flags.slurm;
+  options.threads = flags.running.threads;
+  const SlurmJob job = submit(plan, missing, folder.path(), options);
+  if (flags.running.is_json) {
+    const nlohmann::ordered_json object = {{"runs", plan.runs.size()},
+                                           {"submitted", missing.size()},
+                                           {"job", job.id},
+                                           {"tasks", job.tasks},
+                                           {"folder", job.folder.string()}};
+    fmt::print("{}\n", object.dump());
+  } else if (!flags.running.is_quiet) {
+    fmt::print(
+        "job {}: {} of {} runs in {} tasks\n  squeue --job {} tells how far it is\n  ramify sweep -o {} "
+        "--collect gathers\n",
+        job.id, grouped(missing.size()), grouped(plan.runs.size()), job.tasks, job.id,
+        shell_quoted(flags.folder));
+  }
+}
+
+/// Reports what there is. `done_before`: runs that were finished when this began.
+void finish(const SweepPlan& plan, const SweepFolder& folder, const SweepFlags& flags,
+            std::size_t done_before, const Session& session) {
+  const SweepFindings findings = report(plan, folder, flags, session);
+  const SweepResults& results = findings.results;
+  print_outcome(findings, flags, results.count_done() - done_before);
+  const std::size_t missing = results.rows.size() - results.count_done() - results.count_failed();
+  if (missing > 0) throw RunError(missing_text(results, folder.path()));
+  if (results.count_failed() > 0) {
+    throw RunError(fmt::format("{} of {} runs failed ({} says why)", results.count_failed(),
+                               results.rows.size(), (folder.path() / "results.csv").string()));
+  }
+}
+
+/// What there is of a sweep that other processes make, or made.
+void collect(const SweepFlags& flags, const Session& session) {
+  const std::filesystem::path plan_file = std::filesystem::path(flags.folder) / kPlanFile;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(plan_file, error)) {
+    throw InputError(fmt::format("--collect: {}: no sweep is there", flags.folder));
+  }
+  const SweepPlan plan =
+      flags.config.empty() ? read_plan(read_file(plan_file), plan_file.string()) : plan_of(flags, session);
+  const SweepFolder folder(flags.folder);
+  finish(plan, folder, flags, gather(plan, folder.runs()).count_done(), session);
+}
+
 void sweep(const SweepFlags& flags, const Session& session) {
-  const SweepPlan plan = plan_of(flags, session);
+  check_flags(flags);
   const ThreadLimit limit(flags.running.threads);
   // Where Mesa draws in software, by as many threads, too.
   if (flags.running.threads > 0) setenv("LP_NUM_THREADS", std::to_string(flags.running.threads).c_str(), 0);
+  if (flags.collects) return collect(flags, session);
+  const SweepPlan plan = plan_of(flags, session);
   SweepFolder folder(flags.folder);
-  folder.lock();
+  if (!flags.on_slurm) folder.lock();
   folder.write(kPlanFile, plan_text(plan));
-  const std::size_t done_before = gather(plan, folder.runs()).count_done();
+  const SweepResults before = gather(plan, folder.runs());
+  const std::vector<std::size_t> missing = unfinished(before);
+  if (flags.on_slurm && !missing.empty()) return submit_missing(plan, folder, missing, flags);
   make_missing(plan, folder, flags, session);
-  const SweepFindings findings = report(plan, folder, flags, session);
-  const std::size_t done = findings.results.count_done();
-  print_outcome(findings, flags, done - done_before);
-  if (done < findings.results.rows.size()) {
-    throw RunError(fmt::format("{} of {} runs failed ({} says why)", findings.results.rows.size() - done,
-                               findings.results.rows.size(), (folder.path() / "results.csv").string()));
-  }
+  finish(plan, folder, flags, before.count_done(), session);
 }
 
 struct SweepRunFlags {
@@ -182,6 +253,22 @@ void sweep_run(const SweepRunFlags& flags, const Session& session) {
   make_runs(load_job(session.registry, flags.config), flags.at_steps, flags.runs, session);
 }
 
+void add_cluster_flags(CLI::App& command, SweepFlags& flags) {
+  command.add_flag("--slurm", flags.on_slurm,
+                   "Hand the runs to Slurm as an array job; DIR must be on a disk that its machines share");
+  command
+      .add_option("--tasks", flags.slurm.tasks,
+                  "With --slurm: tasks that share the runs, 16 at most if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, static_cast<int>(kMaxRuns)));
+  command
+      .add_option("--sbatch-options", flags.slurm.sbatch_options,
+                  "With --slurm: more options of sbatch, such as '--partition=long --time=2:00:00'")
+      ->type_name("TEXT");
+  command.add_flag("--collect", flags.collects,
+                   "Only gather the runs that are there; CONFIG and --vary may be left out");
+}
+
 }  // namespace
 
 void add_sweep(CLI::App& program, const Session& session) {
@@ -190,18 +277,17 @@ void add_sweep(CLI::App& program, const Session& session) {
       "sweep", "A run for each combination of values, gathered in one table and report");
   command->footer(kExamples);
   command->add_option("config", flags->config, "A preset (`ramify presets`) or a TOML file")
-      ->type_name("CONFIG")
-      ->required();
+      ->type_name("CONFIG");
   command
       ->add_option("--vary", flags->axes,
                    "Give a parameter these values, a,b,c or from:to:step; seed and steps, too (repeatable: "
                    "every combination is made)")
       ->type_name("KEY=LIST")
-      ->allow_extra_args(false)
-      ->required();
+      ->allow_extra_args(false);
   command->add_option("-o,--output", flags->folder, "Folder for the runs and what is gathered from them")
       ->type_name("DIR")
       ->required();
+  add_cluster_flags(*command, *flags);
   flags->configuring.add_to(*command);
   flags->running.add_to(*command);
   command->callback([flags, &session] { sweep(*flags, session); });

@@ -26,6 +26,18 @@ Skeleton skeleton_of(std::vector<GrowingTree> trees, const Parameters& parameter
 
 }  // namespace
 
+UsedVolumes Engine::volumes(const Parameters& parameters) {
+  UsedVolumes used;
+  for (const Obstacle& obstacle : parameters.obstacles) {
+    if (obstacle.blocks || obstacle.shadow > 0.0) used.obstacles.push_back(&obstacle.volume);
+  }
+  if (parameters.environment == Environment::space) used.others.push_back(&parameters.markers.volume);
+  for (const PruneEvent& event : parameters.prune) {
+    if (event.step <= parameters.steps) used.others.push_back(&event.volume);
+  }
+  return used;
+}
+
 std::vector<std::string> Engine::check(const Parameters& parameters) {
   return check_parameters(parameters);
 }

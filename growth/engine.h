@@ -18,6 +18,8 @@ struct Engine {
     return {parameters.environment == Environment::light ? "shadow" : "markers"};
   }
 
+  static UsedVolumes volumes(const Parameters& parameters);
+
   static int steps(const Parameters& parameters) { return parameters.steps; }
 
   static std::vector<std::string> check(const Parameters& parameters);

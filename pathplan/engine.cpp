@@ -132,6 +132,21 @@ std::vector<std::string> Engine::layers(const Parameters& parameters) {
   return names;
 }
 
+UsedVolumes Engine::volumes(const Parameters& parameters) {
+  UsedVolumes used;
+  for (const Obstacle& obstacle : parameters.obstacles) used.obstacles.push_back(&obstacle.volume);
+  for (const std::vector<Level>* levels : {&parameters.levels, &parameters.roots}) {
+    if (levels->empty()) continue;
+    const Level& first = levels->front();
+    used.others.push_back(&first.volume);
+    const bool has_region = first.endpoints == EndpointKind::region || first.endpoints == EndpointKind::shell;
+    const bool is_own = first.region.shape != Shape::union_of || !first.region.parts.empty();
+    if (has_region && is_own) used.others.push_back(&first.region);
+  }
+  for (const CostVolume& cost : parameters.costs) used.others.push_back(&cost.volume);
+  return used;
+}
+
 std::vector<std::string> Engine::check(const Parameters& parameters) {
   return check_parameters(parameters);
 }

@@ -18,6 +18,9 @@ struct Engine {
   static constexpr bool has_history = false;
   static std::vector<std::string> layers(const Parameters& parameters);
 
+  /// Those of level 1 and of the surroundings: later levels' are about each of their endpoints anew.
+  static UsedVolumes volumes(const Parameters& parameters);
+
   /// How many levels are planned.
   static int steps(const Parameters& parameters) { return static_cast<int>(planned_levels(parameters)); }
 

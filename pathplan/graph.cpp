@@ -1,5 +1,6 @@
 #include "pathplan/graph.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace ramify::pathplan {
@@ -19,6 +20,14 @@ void link_nodes(Graph& graph) {
     graph.links[next[a]++] = {b, graph.weights[i]};
     graph.links[next[b]++] = {a, graph.weights[i]};
   }
+}
+
+std::size_t most_links(const Graph& graph) {
+  std::size_t most = 0;
+  for (std::size_t node = 0; node + 1 < graph.first.size(); ++node) {
+    most = std::max(most, std::size_t{graph.first[node + 1] - graph.first[node]});
+  }
+  return most;
 }
 
 double mean_edge_length(const Graph& graph) {

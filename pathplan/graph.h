@@ -32,8 +32,19 @@ struct Graph {
   }
 };
 
+/// Nodes are taken from all over a large graph: their links had better be on their way from memory.
+inline void prefetch_links(const Graph& graph, std::uint32_t node) {
+  constexpr std::size_t kLinksALine = 64 / sizeof(Link);
+  const Link* const links = graph.links.data() + graph.first[node];
+  __builtin_prefetch(links);
+  __builtin_prefetch(links + kLinksALine);
+}
+
 /// Sets `first` and `links` from the edges and their weights. O(edges).
 void link_nodes(Graph& graph);
+
+/// Of the node that has most. O(nodes).
+std::size_t most_links(const Graph& graph);
 
 /// Metres; 0 without edges. O(edges).
 double mean_edge_length(const Graph& graph);

@@ -52,22 +52,29 @@ ShortestPaths GuidedSearch::search(Queue queue, std::span<const std::uint32_t> s
   const std::span<double> costs = paths.cost;
   const std::span<std::uint32_t> parents = paths.parent;
   const GuidedCost cost = cost_;  // here, or it would be read again for each edge
+  std::vector<typename Queue::Entry> offers(most_links(graph_));
   for (const std::uint32_t source : sources) queue.push(0.0, source);
   while (!queue.is_empty() && !stop.stop_requested()) {
     const auto [cost_here, node] = queue.pop();
+    prefetch_links(graph_, queue.soon());
     if (cost_here > costs[node]) continue;  // a better way was found since
     if (parents[node] != kNoParent) set_guide(node, parents[node]);
     const Vec3& vector = guides_[node].vector;
     const Vec3 here = graph_.nodes[node];
+    // Which offers are taken cannot be foreseen: they are picked first, without a branch.
+    std::size_t count = 0;
     for (const Link& link : graph_.links_of(node)) {
-      double& cost_there = costs[link.node];
       const double offer = cost_here + cost(vector, graph_.nodes[link.node] - here, link.weight);
-      std::uint32_t& parent = parents[link.node];
-      if (offer < cost_there) {
-        cost_there = offer;
+      offers[count] = {offer, link.node};
+      count += offer <= costs[link.node] ? 1 : 0;
+    }
+    for (const auto& [offer, other] : std::span(offers).first(count)) {
+      std::uint32_t& parent = parents[other];
+      if (offer < costs[other]) {
+        costs[other] = offer;
         parent = node;
-        queue.push(offer, link.node);
-      } else if (offer == cost_there && std::pair(cost_here, node) < std::pair(costs[parent], parent)) {
+        queue.push(offer, other);
+      } else if (offer == costs[other] && std::pair(cost_here, node) < std::pair(costs[parent], parent)) {
         parent = node;
       }
     }

@@ -35,30 +35,28 @@ double light_weight(const Graph& graph) {
   return count > 0 ? static_cast<double>(count) / sum : 0.0;
 }
 
-/// Nodes are taken from all over a large graph: their links had better be on their way from memory.
-void prefetch_links(const Graph& graph, std::uint32_t node) {
-  constexpr std::size_t kLinksALine = 64 / sizeof(Link);
-  const Link* const links = graph.links.data() + graph.first[node];
-  __builtin_prefetch(links);
-  __builtin_prefetch(links + kLinksALine);
-}
-
 template <QueueOrder order>
 void search(const Graph& graph, BucketQueue<order> queue, std::span<const std::uint32_t> sources,
             const std::stop_token& stop, ShortestPaths& paths) {
+  std::vector<typename BucketQueue<order>::Entry> offers(most_links(graph));
   for (const std::uint32_t source : sources) queue.push(0.0, source);
   while (!queue.is_empty() && !stop.stop_requested()) {
     const auto [cost_here, node] = queue.pop();
     prefetch_links(graph, queue.soon());
     if (cost_here > paths.cost[node]) continue;  // a better way was found since
+    // Which offers are taken cannot be foreseen: they are picked first, without a branch.
+    std::size_t count = 0;
     for (const Link& link : graph.links_of(node)) {
-      double cost = cost_here + link.weight;
+      offers[count] = {cost_here + link.weight, link.node};
+      count += offers[count].cost < paths.cost[link.node] ? 1 : 0;
+    }
+    for (auto [cost, other] : std::span(offers).first(count)) {
       // A weight too small to count still counts, so that parents come before their children.
       if (cost == cost_here) cost = std::nextafter(cost, kUnreached);
-      if (cost >= paths.cost[link.node]) continue;
-      paths.cost[link.node] = cost;
-      paths.parent[link.node] = node;
-      queue.push(cost, link.node);
+      if (cost >= paths.cost[other]) continue;
+      paths.cost[other] = cost;
+      paths.parent[other] = node;
+      queue.push(cost, other);
     }
   }
 }

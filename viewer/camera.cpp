@@ -1,6 +1,7 @@
 #include "viewer/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -20,18 +21,45 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+/// As many numbers as asked for, with commas between them; nullopt for anything else.
+template <std::size_t N>
+std::optional<std::array<double, N>> parse_numbers(std::string_view text) {
+  std::array<double, N> numbers{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const bool is_last = i + 1 == N;
+    const std::size_t end = is_last ? text.size() : text.find(',');
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::optional<double> number = parse_number(text.substr(0, end));
+    if (!number) return std::nullopt;
+    numbers[i] = *number;
+    if (!is_last) text.remove_prefix(end + 1);
+  }
+  return numbers;
+}
+
+// Of the distance to the place that a close-up shows: what is nearer is cut away.
+constexpr double kNearestOfCloseUp = 0.3;
+
+/// Half the size of a picture's plane one metre away, its longer side `longer`.
+glm::dvec2 half_size_of(double aspect, double longer) {
+  return longer * (aspect >= 1.0 ? glm::dvec2(1.0, 1.0 / aspect) : glm::dvec2(aspect, 1.0));
+}
+
 }  // namespace
 
 std::optional<ViewDirection> parse_view(std::string_view text) {
   if (text == "front") return ViewDirection{0.0, 0.0};
   if (text == "side") return ViewDirection{90.0, 0.0};
   if (text == "top") return ViewDirection{0.0, 90.0};
-  const std::size_t comma = text.find(',');
-  if (comma == std::string_view::npos) return std::nullopt;
-  const std::optional<double> azimuth = parse_number(text.substr(0, comma));
-  const std::optional<double> elevation = parse_number(text.substr(comma + 1));
-  if (!azimuth || !elevation || std::abs(*elevation) > 90.0) return std::nullopt;
-  return ViewDirection{*azimuth, *elevation};
+  const auto angles = parse_numbers<2>(text);
+  if (!angles || std::abs((*angles)[1]) > 90.0) return std::nullopt;
+  return ViewDirection{(*angles)[0], (*angles)[1]};
+}
+
+std::optional<Vec3> parse_point(std::string_view text) {
+  const auto numbers = parse_numbers<3>(text);
+  if (!numbers) return std::nullopt;
+  return Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
 }
 
 CameraAxes camera_axes(double azimuth_deg, double elevation_deg) {
@@ -59,10 +87,21 @@ double field_of_view() {
   return std::tan(radians(kFieldOfViewDeg / 2.0));
 }
 
+Camera close_up_camera(const ViewDirection& view, double aspect, const CloseUp& place, double farthest) {
+  Camera camera;
+  camera.axes = camera_axes(view.azimuth_deg, view.elevation_deg);
+  camera.is_parallel = view.is_parallel;
+  const glm::dvec2 tangents = half_size_of(aspect, field_of_view());
+  const double distance = 0.5 * place.across / std::min(tangents.x, tangents.y);
+  camera.half_size = view.is_parallel ? tangents * distance : tangents;
+  camera.eye = place.center + camera.axes.back * distance;
+  camera.near_distance = kNearestOfCloseUp * distance;
+  camera.far_distance = std::max(2.0 * distance, glm::dot(camera.eye, camera.axes.back) - farthest);
+  return camera;
+}
+
 Framer::Framer(const ViewDirection& view, double aspect, double margin)
-    : Framer(view,
-             field_of_view() * (aspect >= 1.0 ? glm::dvec2(1.0, 1.0 / aspect) : glm::dvec2(aspect, 1.0)),
-             margin) {}
+    : Framer(view, half_size_of(aspect, field_of_view()), margin) {}
 
 Framer::Framer(const ViewDirection& view, const glm::dvec2& half_size, double margin)
     : axes_(camera_axes(view.azimuth_deg, view.elevation_deg)),

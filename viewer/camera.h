@@ -46,6 +46,19 @@ struct Camera {
   glm::dmat4 world_to_clip() const;
 };
 
+/// A place of the scene that fills the picture.
+struct CloseUp {
+  Vec3 center{0.0};
+  double across = 1.0;  // metres that the picture's shorter side shows there
+};
+
+/// "X,Y,Z" in metres; nullopt if malformed or not finite.
+std::optional<Vec3> parse_point(std::string_view text);
+
+/// The camera that has the place in the middle. It sees as far as the depth `farthest`, a coordinate along
+/// the view's axis `back`; what lies just before the viewer is cut away.
+Camera close_up_camera(const ViewDirection& view, double aspect, const CloseUp& place, double farthest);
+
 /// Tangent of half the angle that cameras with perspective see along the picture's longer side.
 double field_of_view();
 

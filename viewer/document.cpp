@@ -7,6 +7,7 @@
 #include "common/base/errors.h"
 #include "common/config/differences.h"
 #include "common/config/presets.h"
+#include "common/config/toml_reader.h"
 
 namespace ramify {
 namespace {
@@ -23,6 +24,17 @@ std::string shell_word(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result + "'";
+}
+
+/// Whether --set can make the one of the other: no assignment takes a named item away.
+bool can_be_assigned(const Job& from, const Job& to) {
+  Job job = independent_copy(from);
+  const Table table = job_table(*job.engine);
+  for (const auto& [key, value] : differences(table, &from, &to)) {
+    Origins origins;
+    assign(table, &job, key, value, "", origins);
+  }
+  return to_toml(job) == to_toml(to);
 }
 
 }  // namespace
@@ -158,6 +170,10 @@ bool Document::update(double now, bool is_at_rest) {
     if (made->number == ordered_) fine_due_.reset();
     return true;
   }
+  // The last tree's, until the fine one is measured.
+  if (!made->numbers && product_) made->numbers = product_->numbers;
+  // While drafts follow each other; a tree that is looked at longer shall not hold memory twice.
+  if (product_ && made->is_draft) workshop_.reuse(std::move(product_->mesh));
   product_ = std::move(made);
   product_edit_time_ = edit_time;
   if (at_ && *at_ >= product_->last_step) at_.reset();
@@ -172,17 +188,20 @@ std::optional<double> Document::due_in(double now) const {
 
 std::string generate_command(const Document& document) {
   const Job& job = document.job();
+  const Job* base = &document.opened_job();
+  const Job defaults = default_job(*job.engine);
   std::string command;
-  std::string config = document.opened_job().name;
+  std::string config = base->name;
   std::error_code error;
-  if (find_preset(config) == nullptr && !std::filesystem::is_regular_file(config, error)) {
-    // The engine's defaults, of which there is no preset.
+  const bool is_there = find_preset(config) != nullptr || std::filesystem::is_regular_file(config, error);
+  if (!is_there || !can_be_assigned(*base, job)) {
+    base = &defaults;
     config = job.engine->name + ".toml";
     command = fmt::format("ramify params {} --toml > {} && ", job.engine->name, config);
   }
   command += fmt::format("ramify generate {}", shell_word(config));
   const Table table = job_table(*job.engine);
-  for (const auto& [key, value] : differences(table, &document.opened_job(), &job)) {
+  for (const auto& [key, value] : differences(table, base, &job)) {
     command += fmt::format(" --set {}", shell_word(key + "=" + value));
   }
   return command + " -o tree.glb";

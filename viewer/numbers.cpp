@@ -31,6 +31,7 @@ Histogram histogram(const Anatomy& tree, const std::vector<std::optional<double>
 Numbers numbers_of(const Skeleton& skeleton) {
   Numbers numbers;
   numbers.metrics = measure(skeleton);
+  numbers.form = form_of(skeleton);
   const Anatomy tree(skeleton);
   numbers.angles = histogram(tree, branching_angles_deg(tree), 180.0);
   std::vector<std::optional<double>> lengths;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/analysis/distances.h"
 #include "common/analysis/metrics.h"
 #include "common/skeleton/skeleton.h"
 
@@ -20,6 +21,7 @@ struct Histogram {
 
 struct Numbers {
   Metrics metrics;
+  TreeForm form;      // what the distances between trees compare
   Histogram angles;   // of branching, degrees
   Histogram lengths;  // of axes, metres
 };

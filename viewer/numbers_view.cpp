@@ -25,7 +25,7 @@ void right_aligned(const std::string& text) {
 
 const Numbers* numbers_of_seat(const Workbench& bench, std::size_t index) {
   const Product* product = bench.seats[index]->document.product();
-  return product != nullptr && product->numbers ? &*product->numbers : nullptr;
+  return product != nullptr ? product->numbers.get() : nullptr;
 }
 
 void metric_row(const MetricInfo& info, const Workbench& bench) {
@@ -60,6 +60,39 @@ void metric_rows(Workbench& bench) {
   if (columns == 4) ImGui::TableSetupColumn("B - A", ImGuiTableColumnFlags_WidthStretch, 0.8f);
   ImGui::TableHeadersRow();
   for (const MetricInfo& info : metric_table()) metric_row(info, bench);
+  ImGui::EndTable();
+}
+
+/// Of a tree that still changes they are those of the one before.
+bool are_old(const Workbench& bench) {
+  return std::any_of(bench.seats.begin(), bench.seats.end(),
+                     [](const auto& seat) { return !seat->document.is_settled(); });
+}
+
+void distance_rows(Workbench& bench) {
+  if (bench.seats.size() < 2) return;
+  const auto numbers = [&](std::size_t index) {
+    const Product* product = bench.seats[index]->document.product();
+    return product != nullptr ? product->numbers : nullptr;
+  };
+  bench.distances.follow(numbers(0), numbers(1));
+  ImGui::Spacing();
+  ImGui::TextUnformatted("Distances between A and B, 0 if they are alike");
+  if (!ImGui::BeginTable("distances", 2, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("distance", ImGuiTableColumnFlags_WidthStretch, 1.7f);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.8f);
+  for (std::size_t k = 0; k < kDistanceCount; ++k) {
+    const DistanceInfo& info = distance_table()[k];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(info.key.data(), info.key.data() + info.key.size());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%.*s", static_cast<int>(info.help.size()), info.help.data());
+    }
+    ImGui::TableNextColumn();
+    const auto& values = bench.distances.values();
+    right_aligned(values && numbers(0) && numbers(1) ? fmt::format("{:.4f}", (*values)[k]) : "-");
+  }
   ImGui::EndTable();
 }
 
@@ -101,7 +134,11 @@ void bars(const char* title, const char* unit, const Histogram& histogram) {
 
 void show_numbers(Workbench& bench) {
   ImGui::BeginChild("numbers");
+  const bool is_dim = are_old(bench);
+  if (is_dim) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   metric_rows(bench);
+  distance_rows(bench);
+  if (is_dim) ImGui::PopStyleColor();
   if (const Numbers* numbers = numbers_of_seat(bench, bench.active)) {
     const std::string of = bench.seats.size() > 1 ? " of " + seat_name(bench.active) : "";
     bars(("Branching angles" + of + ", by order").c_str(), "degrees", numbers->angles);

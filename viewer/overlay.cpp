@@ -105,9 +105,8 @@ Marks marks_of(const VoxelLayer& layer, bool is_slice) {
 Marks outlines(const Job& job) {
   Marks marks;
   marks.width = 2.5;
-  Job own = independent_copy(job);
   std::size_t number = 0;
-  for (const Volume* volume : volumes_in(job_table(*own.engine), &own)) {
+  for (const Volume* volume : job.engine->volumes(job.parameters.get()).others) {
     const Color color = categorical_color(number++);
     for (const Vec3& point : surface_points(*volume, kOutlineCells)) marks.add(point, point, color);
   }
@@ -137,7 +136,9 @@ Marks marks_of(const Product& product, const std::string& name, bool is_slice) {
 
 std::vector<std::string> overlay_names(const Job& job) {
   std::vector<std::string> names = job.engine->layers(job.parameters.get());
-  names.emplace_back(kVolumes);
+  const UsedVolumes used = job.engine->volumes(job.parameters.get());
+  if (!used.others.empty()) names.emplace_back(kVolumes);
+  if (!used.obstacles.empty()) names.emplace_back(kObstacles);
   return names;
 }
 

@@ -1,4 +1,4 @@
-// What is shown over a tree beside its wood: an engine's layers, and the volumes of its config.
+// What is shown over a tree beside its wood: an engine's layers, and the volumes that its run uses.
 #pragma once
 
 #include <array>
@@ -14,8 +14,10 @@
 
 namespace ramify {
 
-/// The overlay that is no engine's: the outlines of all volumes in a config.
+/// The overlays that are no engine's: the outlines of the volumes that a run uses, and its obstacles, which
+/// are solid and part of the scene.
 inline constexpr const char* kVolumes = "volumes";
+inline constexpr const char* kObstacles = "obstacles";
 
 /// Segments in the world; of no length: points.
 struct Marks {
@@ -32,7 +34,8 @@ struct Marks {
 /// to the greatest; of very many marks evenly chosen ones are left.
 Marks marks_of(const Product& product, const std::string& name, bool is_slice);
 
-/// What can be asked for: the layers that the product's engine makes, and the volumes of its config.
+/// What can be asked for: the layers that the job's engine makes, and volumes and obstacles where it has
+/// some.
 std::vector<std::string> overlay_names(const Job& job);
 
 /// The marks on the GPU. Needs a current context.

@@ -32,6 +32,10 @@ constexpr Color kSkyBottom = color_of(0xedecea);
 constexpr Color kGround = color_of(0xe3e0da);
 constexpr Color kInk = color_of(0x2b2b2b);
 
+// Obstacles: plaster in the sun, and behind a drawing's black.
+constexpr Color kPlaster = color_of(0xc9c3b8);
+constexpr Color kPale = color_of(0xdcdcd8);
+
 // The ground fades out this far from the tree, in parts of the tree's size.
 constexpr double kGroundReach = 3.5;
 
@@ -91,12 +95,10 @@ glm::mat4 moved(const glm::dmat4& world_to_clip, const Vec3& origin) {
   return glm::mat4(glm::translate(world_to_clip, origin));
 }
 
-/// Metres of the longest side of the mesh's box; 0 for none.
-double longest_side(const Mesh* mesh) {
+/// Metres of the longest side of the points' box; 0 for none.
+double longest_side(std::span<const Vec3f> points) {
   Box box;
-  if (mesh != nullptr) {
-    for (const Vec3f& position : mesh->positions) box.include(Vec3(position));
-  }
+  for (const Vec3f& point : points) box.include(Vec3(point));
   if (box.is_empty()) return 0.0;
   return std::max({box.size().x, box.size().y, box.size().z});
 }
@@ -115,6 +117,8 @@ void Painter::load(const Scene& scene, const RenderOptions& options) {
   options_ = options;
   tree_ = Batch();
   surfaces_.clear();
+  obstacles_ = Batch();
+  obstacle_reach_ = 0.0;
   figure_ = Batch();
   figure_corners_.clear();
   bar_ = Batch();
@@ -122,9 +126,10 @@ void Painter::load(const Scene& scene, const RenderOptions& options) {
   ground_reach_ = 0.0;
   if (options.style == RenderStyle::skeleton) {
     load_lines(scene);
-    return;
+  } else {
+    load_mesh(scene);
   }
-  load_mesh(scene);
+  if (scene.obstacles != nullptr && !scene.obstacles->triangles.empty()) load_obstacles(*scene.obstacles);
   if (options.style == RenderStyle::lit) load_sky_light(scene);
 }
 
@@ -132,25 +137,43 @@ void Painter::load_mesh(const Scene& scene) {
   const std::vector<ColorBytes> colors = vertex_colors(scene, options_);
   if (scene.mesh == nullptr || scene.mesh->triangles.empty()) return;
   const Mesh& mesh = *scene.mesh;
-  glBindVertexArray(tree_.vertices.id());
-  add_attribute<Vec3f>(kPosition, tree_.positions, mesh.positions, 3, GL_FLOAT);
-  if (options_.style == RenderStyle::lit) {
-    add_attribute<Vec3f>(kNormal, tree_.normals, mesh.normals, 3, GL_FLOAT);
-  }
-  add_attribute<ColorBytes>(kColor, tree_.colors, colors, 4, GL_UNSIGNED_BYTE);
-  add_attribute<Vec2f>(kUv, tree_.uvs, mesh.uvs, 2, GL_FLOAT);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, tree_.indices.id());
-  const std::size_t byte_count = mesh.triangles.size() * sizeof(mesh.triangles[0]);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(byte_count), mesh.triangles.data(),
-               GL_STATIC_DRAW);
+  tree_ = triangle_batch(mesh, colors);
   for (const MaterialRange& range : mesh.ranges) {
     // The mesher's branches are closed; a file's need not be, and leaves have two sides.
     const bool is_closed = scene.skeleton != nullptr && !mesh.material(range).is_two_sided;
     tree_.ranges.push_back(
         {3 * range.first_triangle, static_cast<int>(3 * range.triangle_count), is_closed, range.material});
   }
-  glBindVertexArray(0);
   load_surfaces(mesh);
+}
+
+void Painter::load_obstacles(const Mesh& obstacles) {
+  const Color color = options_.style == RenderStyle::lit ? kPlaster : kPale;
+  obstacles_ =
+      triangle_batch(obstacles, std::vector<ColorBytes>(obstacles.vertex_count(), color_bytes(color)));
+  obstacles_.ranges.push_back({0, static_cast<int>(3 * obstacles.triangles.size()), true, surfaces_.size()});
+  surfaces_.emplace_back();
+  for (const Vec3f& position : obstacles.positions) {
+    obstacle_reach_ = std::max(obstacle_reach_, glm::distance(Vec3(position), base_));
+  }
+}
+
+/// Without ranges: the caller knows the materials.
+Painter::Batch Painter::triangle_batch(const Mesh& mesh, const std::vector<ColorBytes>& colors) const {
+  Batch batch;
+  glBindVertexArray(batch.vertices.id());
+  add_attribute<Vec3f>(kPosition, batch.positions, mesh.positions, 3, GL_FLOAT);
+  if (options_.style == RenderStyle::lit) {
+    add_attribute<Vec3f>(kNormal, batch.normals, mesh.normals, 3, GL_FLOAT);
+  }
+  add_attribute<ColorBytes>(kColor, batch.colors, colors, 4, GL_UNSIGNED_BYTE);
+  add_attribute<Vec2f>(kUv, batch.uvs, mesh.uvs, 2, GL_FLOAT);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, batch.indices.id());
+  const std::size_t byte_count = mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(byte_count), mesh.triangles.data(),
+               GL_STATIC_DRAW);
+  glBindVertexArray(0);
+  return batch;
 }
 
 void Painter::load_surfaces(const Mesh& mesh) {
@@ -201,7 +224,8 @@ void Painter::load_sky_light(const Scene& scene) {
   double size = 1.0;
   if (sky.visibility.empty()) {
     // What the box of the sky's light would measure.
-    if (const double side = longest_side(scene.mesh); side > 0.0) size = 1.3 * side;
+    const double side = scene.mesh != nullptr ? longest_side(scene.mesh->positions) : 0.0;
+    if (side > 0.0) size = 1.3 * side;
     sky.box = {base_, base_ + 1.0};
     sky.size = Coord(1);
     sky.visibility = {255};
@@ -209,7 +233,8 @@ void Painter::load_sky_light(const Scene& scene) {
     const Vec3 extent = sky.box.size();
     size = std::max({extent.x, extent.y, extent.z});
   }
-  ground_reach_ = kGroundReach * size;
+  // Trees drawn to one scale stand on one ground.
+  ground_reach_ = kGroundReach * std::max(size, longest_side(options_.room_for));
   world_to_sky_ = glm::mat4(glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / sky.box.size()), -sky.box.low));
 
   bind_texture(kSkyUnit, GL_TEXTURE_3D, sky_visibility_);
@@ -249,8 +274,10 @@ Painter::Batch Painter::flat_batch(const std::vector<Vec2f>& corners, const Came
 
 void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size) {
   std::span<const Vec3f> tree;
+  std::span<const Vec3f> obstacles;
   if (scene.mesh != nullptr) tree = scene.mesh->positions;
-  sun_ = sun_view(sun, tree, figure_corners_, base_.y);
+  if (scene.obstacles != nullptr) obstacles = scene.obstacles->positions;
+  sun_ = sun_view(sun, {tree, obstacles, figure_corners_}, base_.y);
   if (!shadow_map_ || shadow_map_->size() != map_size) shadow_map_ = std::make_unique<ShadowMap>(map_size);
 
   shadow_map_->begin();
@@ -261,6 +288,7 @@ void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_si
   caster_.use();
   if (options_.with_occlusion) {
     cast(tree_);
+    cast(obstacles_);
     cast(figure_);
   }
   shadow_map_->finish();
@@ -305,8 +333,9 @@ void Painter::draw_over(const Camera& camera, const Viewport& viewport) {
   if (options_.style == RenderStyle::skeleton) {
     draw_lines(world_to_clip, viewport);
   } else {
-    draw_tree(world_to_clip);
+    draw_solid(tree_, world_to_clip);
   }
+  draw_solid(obstacles_, world_to_clip);
   glBindVertexArray(0);
 }
 
@@ -325,17 +354,18 @@ void Painter::draw_background(const Viewport& viewport) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Painter::draw_tree(const glm::dmat4& world_to_clip) const {
+void Painter::draw_solid(const Batch& batch, const glm::dmat4& world_to_clip) const {
+  if (batch.ranges.empty()) return;
   const GlProgram& program = options_.style == RenderStyle::lit ? lit_ : flat_;
   program.use();
-  program.set("world_to_clip", moved(world_to_clip, tree_.origin));
+  program.set("world_to_clip", moved(world_to_clip, batch.origin));
   if (options_.style == RenderStyle::lit) {
     set_light(program);
     bind_texture(kSunDepthUnit, GL_TEXTURE_2D, shadow_map_->depth());
     program.set("sun_depth", kSunDepthUnit);
     program.set("texel", static_cast<float>(std::max(sun_.size.x, sun_.size.y) / shadow_map_->size()));
   }
-  draw_triangles(tree_, program);
+  draw_triangles(batch, program);
 }
 
 void Painter::draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const {
@@ -372,8 +402,10 @@ void Painter::draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) con
 
 void Painter::draw_triangles(const Batch& batch, const GlProgram& program) const {
   glBindVertexArray(batch.vertices.id());
-  set_surface({}, program);
-  glDrawArrays(GL_TRIANGLES, 0, batch.count);
+  if (batch.count > 0) {
+    set_surface({}, program);
+    glDrawArrays(GL_TRIANGLES, 0, batch.count);
+  }
   for (const Range& range : batch.ranges) {
     const Surface& surface = surfaces_[range.surface];
     set_surface(surface, program);

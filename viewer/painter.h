@@ -2,6 +2,7 @@
 // linear and alpha multiplied in; whoever owns the framebuffer encodes it.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,13 +42,13 @@ class Painter {
   /// be without occlusion and there are none. `map_size`: pixels a side. Leaves its own framebuffer bound.
   void cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size);
 
-  /// How far the ground reaches around the tree, metres; 0 in styles without one.
-  double ground_reach() const { return ground_reach_; }
+  /// How far ground and obstacles reach around the tree's base, metres; 0 if there are none.
+  double reach() const { return std::max(ground_reach_, obstacle_reach_); }
 
   /// Draws what was loaded, background first.
   void draw(const Camera& camera, const Viewport& viewport);
 
-  /// Draws the tree alone, among what another painter drew through the same camera.
+  /// Draws tree and obstacles alone, among what another painter drew through the same camera.
   void draw_over(const Camera& camera, const Viewport& viewport);
 
  private:
@@ -83,11 +84,13 @@ class Painter {
 
   void load_mesh(const Scene& scene);
   void load_surfaces(const Mesh& mesh);
+  void load_obstacles(const Mesh& obstacles);
+  Batch triangle_batch(const Mesh& mesh, const std::vector<ColorBytes>& colors) const;
   void load_lines(const Scene& scene);
   void load_sky_light(const Scene& scene);
   Batch flat_batch(const std::vector<Vec2f>& corners, const CameraAxes& axes) const;
   void draw_background(const Viewport& viewport) const;
-  void draw_tree(const glm::dmat4& world_to_clip) const;
+  void draw_solid(const Batch& batch, const glm::dmat4& world_to_clip) const;
   void draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const;
   void draw_ground(const glm::dmat4& world_to_clip) const;
   void draw_triangles(const Batch& batch, const GlProgram& program) const;
@@ -108,12 +111,14 @@ class Painter {
   RenderOptions options_;
   Batch tree_;
   std::vector<Surface> surfaces_;
+  Batch obstacles_;
   std::vector<Vec3f> figure_corners_;
   Batch figure_;
   Batch bar_;
 
   Vec3 base_{0.0};
   double ground_reach_ = 0.0;
+  double obstacle_reach_ = 0.0;
   SunView sun_;
   std::unique_ptr<ShadowMap> shadow_map_;
   GlTexture sky_visibility_;

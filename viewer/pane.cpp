@@ -27,17 +27,18 @@ CameraAxes sun() {
   return sun_behind({});
 }
 
-Scene scene_of(const Product& product) {
+Scene scene_of(const Product& product, const ShowOptions& show) {
   const bool has_skeleton = product.skeleton.node_count() > 0;
   return {.mesh = &product.mesh,
           .skeleton = has_skeleton ? &product.skeleton : nullptr,
-          .sky = product.sky.visibility.empty() ? nullptr : &product.sky};
+          .sky = product.sky.visibility.empty() ? nullptr : &product.sky,
+          .obstacles = show.layers.count(kObstacles) > 0 ? &product.obstacles : nullptr};
 }
 
 }  // namespace
 
 void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show) {
-  const Scene scene = scene_of(*exhibit.product);
+  const Scene scene = scene_of(*exhibit.product, show);
   RenderOptions options;
   options.style = show.style;
   options.tint = exhibit.tint;
@@ -132,7 +133,7 @@ void Pane::draw(const Orbit& orbit) {
   const auto start = std::chrono::steady_clock::now();
   const double aspect = static_cast<double>(width_) / height_;
   double reach = 0.0;
-  for (const auto& loaded : loaded_) reach = std::max(reach, loaded->painter.ground_reach());
+  for (const auto& loaded : loaded_) reach = std::max(reach, loaded->painter.reach());
   for (const auto& loaded : loaded_) {
     if (loaded->show.with_scale && loaded == loaded_.front()) stand_figure(*loaded, orbit);
   }

@@ -4,9 +4,13 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
 
+#include "common/config/inheritance.h"
 #include "common/config/toml_writer.h"
+#include "viewer/panel_items.h"
 
 namespace ramify {
 namespace {
@@ -22,61 +26,6 @@ bool contains_word(const std::string& text, const std::string& word) {
   return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
 }
 
-/// An owner as it is, as it was opened and by default; the last two are null where they have no such item.
-struct Owners {
-  void* now = nullptr;
-  void* opened = nullptr;
-  void* by_default = nullptr;
-};
-
-/// The items of lists and maps, named as in keys.
-struct Item {
-  std::string name;
-  Owners owners;
-};
-
-Owners members(const FieldRow& row, const Owners& owners) {
-  const auto member = [&](void* owner) { return owner == nullptr ? nullptr : row.member(owner); };
-  return {member(owners.now), member(owners.opened), member(owners.by_default)};
-}
-
-std::vector<Item> list_items(const FieldRow& row, const Owners& lists) {
-  std::vector<Item> items;
-  const std::size_t count = row.size(lists.now);
-  if (lists.by_default != nullptr) {
-    // Before addresses of items are taken: they move as the list grows.
-    while (row.size(lists.by_default) < count) row.append(lists.by_default);
-  }
-  for (std::size_t index = 0; index < count; ++index) {
-    Item item{std::to_string(index + 1), {row.item(lists.now, index), nullptr, nullptr}};
-    if (lists.opened != nullptr && index < row.size(lists.opened)) {
-      item.owners.opened = row.item(lists.opened, index);
-    }
-    if (lists.by_default != nullptr) item.owners.by_default = row.item(lists.by_default, index);
-    items.push_back(std::move(item));
-  }
-  return items;
-}
-
-std::vector<Item> map_items(const FieldRow& row, const Owners& maps) {
-  std::vector<Item> items;
-  std::vector<std::string> known;
-  if (maps.opened != nullptr) known = row.names(maps.opened);
-  for (const std::string& name : row.names(maps.now)) {
-    Item item{name, {row.named(maps.now, name), nullptr, nullptr}};
-    if (std::find(known.begin(), known.end(), name) != known.end()) {
-      item.owners.opened = row.named(maps.opened, name);
-    }
-    if (maps.by_default != nullptr) item.owners.by_default = row.named(maps.by_default, name);
-    items.push_back(std::move(item));
-  }
-  return items;
-}
-
-std::vector<Item> items_of(const FieldRow& row, const Owners& owners) {
-  return row.kind == FieldKind::list ? list_items(row, owners) : map_items(row, owners);
-}
-
 class Rows {
  public:
   Rows(Panel& panel, WidgetReport& report) : panel_(panel), report_(report) {}
@@ -86,9 +35,12 @@ class Rows {
  private:
   WidgetOutcome scalars(const Table& table, const Owners& owners, const std::string& prefix);
   WidgetOutcome scalar(const FieldRow& row, const Owners& members, const std::string& key);
-  WidgetOutcome nested(const FieldRow& row, const Owners& members, const std::string& key);
+  WidgetOutcome nested(const Table& table, const FieldRow& row, const Owners& owners, const std::string& key);
+  WidgetOutcome heading(const Table& table, const FieldRow& row, void* owner, const std::string& key);
+  bool name_input(const FieldRow& row, void* map, const std::string& key);
   WidgetOutcome branch(const std::string& label, const std::string& key, const FieldRow& row,
                        const Owners& owners);
+  bool remove_button(const std::string& key, float top);
   WidgetOutcome menu(const FieldRow& row, const Owners& members);
   void explain(const FieldRow& row, const Owners& members, const std::string& key) const;
   bool is_shown(const FieldRow& row, const std::string& key) const;
@@ -96,6 +48,7 @@ class Rows {
 
   Panel& panel_;
   WidgetReport& report_;
+  std::string& fresh_ = panel_.fresh;
 };
 
 bool Rows::is_shown(const FieldRow& row, const std::string& key) const {
@@ -109,20 +62,22 @@ bool Rows::has_shown(const FieldRow& row, const Owners& members, const std::stri
   const auto in_table = [&](const Owners& owners, const std::string& prefix) {
     return std::any_of(row.child().begin(), row.child().end(), [&](const FieldRow& inner) {
       const std::string inner_key = prefix + inner.key;
-      return is_nested(inner) ? has_shown(inner, ramify::members(inner, owners), inner_key)
+      return is_nested(inner) ? has_shown(inner, members_of(inner, owners), inner_key)
                               : is_shown(inner, inner_key);
     });
   };
   if (row.kind == FieldKind::group) return in_table(members, key + ".");
-  const std::vector<Item> items = items_of(row, members);
-  return std::any_of(items.begin(), items.end(),
-                     [&](const Item& item) { return in_table(item.owners, key + "." + item.name + "."); });
+  if (is_shown(row, key)) return true;
+  const std::vector<PanelItem> items = items_of(row, members);
+  return std::any_of(items.begin(), items.end(), [&](const PanelItem& item) {
+    return in_table(item.owners, key + "." + item.name + ".");
+  });
 }
 
 WidgetOutcome Rows::table(const Table& table, const Owners& owners, const std::string& prefix) {
   WidgetOutcome outcome = scalars(table, owners, prefix);
   for (const FieldRow& row : table) {
-    if (is_nested(row)) outcome |= nested(row, members(row, owners), prefix + row.key);
+    if (is_nested(row)) outcome |= nested(table, row, owners, prefix + row.key);
   }
   return outcome;
 }
@@ -142,7 +97,7 @@ WidgetOutcome Rows::scalars(const Table& table, const Owners& owners, const std:
     if (is_nested(row) || !is_shown(row, key)) continue;
     ImGui::TableNextRow();
     ImGui::PushID(row.key.c_str());
-    outcome |= scalar(row, members(row, owners), key);
+    outcome |= scalar(row, members_of(row, owners), key);
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -210,16 +165,77 @@ void Rows::explain(const FieldRow& row, const Owners& members, const std::string
   ImGui::EndTooltip();
 }
 
-WidgetOutcome Rows::nested(const FieldRow& row, const Owners& members, const std::string& key) {
+WidgetOutcome Rows::nested(const Table& table, const FieldRow& row, const Owners& owners,
+                           const std::string& key) {
+  const Owners members = members_of(row, owners);
   if (!has_shown(row, members, key)) return {};
   if (row.kind == FieldKind::group) return branch(row.key, key, row, members);
-  const std::vector<Item> items = items_of(row, members);
   WidgetOutcome outcome;
-  for (const Item& item : items) {
-    const bool has_any = panel_.filter.empty() || has_shown(row, members, key);
-    if (has_any) outcome |= branch(row.key + " " + item.name, key + "." + item.name, row, item.owners);
+  if (is_shown(row, key)) outcome = heading(table, row, owners.now, key);
+  std::optional<PanelItem> unwanted;
+  for (const PanelItem& item : items_of(row, members)) {
+    const float top = ImGui::GetCursorScreenPos().y;
+    const std::string item_key = key + "." + item.name;
+    if (fresh_ == item_key) ImGui::SetNextItemOpen(true);
+    outcome |= branch(row.key + " " + item.name, item_key, row, item.owners);
+    if (remove_button(item_key, top)) unwanted = item;
   }
-  return outcome;
+  if (!unwanted) return outcome;
+  remove_item(row, members.now, *unwanted);
+  return {true, true};
+}
+
+/// What a list or map is called, and the button that adds to it.
+WidgetOutcome Rows::heading(const Table& table, const FieldRow& row, void* owner, const std::string& key) {
+  void* const member = row.member(owner);
+  ImGui::PushID(key.c_str());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", row.key.c_str());
+  if (ImGui::IsItemHovered() && !row.info.help.empty()) ImGui::SetTooltip("%s", row.info.help.c_str());
+  const float size = ImGui::GetFrameHeight();
+  bool is_added = false;
+  if (row.kind == FieldKind::map) {
+    is_added = name_input(row, member, key);
+  } else {
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - size);
+    is_added = ImGui::Button("+", {size, 0.0f});
+    report_.add(key + ".add");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add one");
+    if (is_added) append_item(table, owner, row);
+    if (is_added) fresh_ = key + "." + std::to_string(row.size(member));
+  }
+  ImGui::PopID();
+  return {is_added, is_added};
+}
+
+/// A new item's name, taken with Enter.
+bool Rows::name_input(const FieldRow& row, void* map, const std::string& key) {
+  const float width = 9.0f * ImGui::GetFontSize();
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+  ImGui::SetNextItemWidth(width);
+  std::array<char, 64> name{};
+  const bool is_entered = ImGui::InputTextWithHint("##name", "+ name", name.data(), name.size(),
+                                                   ImGuiInputTextFlags_EnterReturnsTrue);
+  report_.add(key + ".add");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add one: its name and Enter");
+  if (!is_entered || !is_free_name(row, map, name.data())) return false;
+  row.named(map, name.data());
+  fresh_ = key + "." + name.data();
+  return true;
+}
+
+/// Over the right end of an item's line, which begins at `top`.
+bool Rows::remove_button(const std::string& key, float top) {
+  const ImVec2 after = ImGui::GetCursorScreenPos();
+  const float size = ImGui::GetFrameHeight();
+  ImGui::SetCursorScreenPos({ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x - size, top});
+  ImGui::PushID(key.c_str());
+  const bool is_pressed = ImGui::Button("x", {size, 0.0f});
+  ImGui::PopID();
+  report_.add(key + ".remove");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Take it away");
+  ImGui::SetCursorScreenPos(after);
+  return is_pressed;
 }
 
 /// A part of the tree of tables that can be folded; open from the start if it is near the top.
@@ -228,6 +244,7 @@ WidgetOutcome Rows::branch(const std::string& label, const std::string& key, con
   const bool is_top = key.find('.') == std::string::npos;
   if (!panel_.filter.empty()) ImGui::SetNextItemOpen(true);
   const ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_Framed | ImGuiTreeNodeFlags_SpanAvailWidth |
+                                   ImGuiTreeNodeFlags_AllowItemOverlap |
                                    (is_top ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
   const bool is_open = ImGui::TreeNodeEx(key.c_str(), flags, "%s", label.c_str());
   report_.add(key);

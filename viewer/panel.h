@@ -14,6 +14,7 @@ struct Panel {
   Job defaults;        // grows items where it is compared with lists; only its values count
   std::string filter;  // only parameters that have it in their key or meaning are shown
   double last_step = 1.0;
+  std::string fresh = {};  // key of the item that was added last: it is open
 };
 
 /// Widgets for what stands in `table` of `job`. A parameter that differs from `opened` is marked; a click on

@@ -26,13 +26,31 @@ constexpr int kPartStep = 8;
 // Free at each edge of the picture, in parts of it.
 constexpr double kMargin = 0.05;
 
-void include_scene(const Scene& scene, RenderStyle style, Framer& framer) {
-  if (style != RenderStyle::skeleton && scene.mesh != nullptr) {
+/// The part of them that is near the tree, or near what else is to have room: in a film it stays the same.
+void include_obstacles(const Scene& scene, const RenderOptions& options, Framer& framer) {
+  Box tree;
+  if (scene.mesh != nullptr) {
+    for (const Vec3f& position : scene.mesh->positions) tree.include(Vec3(position));
+  }
+  for (const Vec3f& point : options.room_for) tree.include(Vec3(point));
+  const Box room = obstacle_room(*scene.obstacles, tree);
+  if (room.is_empty()) return;
+  for (int corner = 0; corner < 8; ++corner) {
+    framer.include({corner & 1 ? room.high.x : room.low.x, corner & 2 ? room.high.y : room.low.y,
+                    corner & 4 ? room.high.z : room.low.z});
+  }
+}
+
+void include_scene(const Scene& scene, const RenderOptions& options, Framer& framer) {
+  const bool has_lines = options.style == RenderStyle::skeleton;
+  if (!has_lines && scene.mesh != nullptr) {
     for (const Vec3f& position : scene.mesh->positions) framer.include(Vec3(position));
   }
-  if (scene.skeleton != nullptr && (style == RenderStyle::skeleton || framer.extent().is_empty())) {
+  if (scene.skeleton != nullptr && (has_lines || framer.extent().is_empty())) {
     for (const Vec3& position : scene.skeleton->position) framer.include(position);
   }
+  if (scene.obstacles != nullptr) include_obstacles(scene, options, framer);
+  for (const Vec3f& point : options.room_for) framer.include(Vec3(point));
 }
 
 /// Pixels of the parts that a side of the picture is cut into.
@@ -136,8 +154,9 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
 
   ViewDirection view = options.view;
   view.is_parallel = view.is_parallel || options.style != RenderStyle::lit;
-  Framer framer(view, static_cast<double>(options.width) / options.height, kMargin);
-  include_scene(scene, options.style, framer);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  Framer framer(view, aspect, kMargin);
+  include_scene(scene, options, framer);
   for (const Vec3f& point : options.room_for) framer.include(Vec3(point));
   if (options.with_scale) {
     const Vec3 base = base_of(scene);
@@ -154,7 +173,9 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
     painter.cast_shadows(scene, sun_behind(view), shadow_map_size(options, most));
   }
 
-  const Camera camera = framer.camera(painter.ground_reach());
+  const Camera camera = options.close_up ? close_up_camera(view, aspect, *options.close_up,
+                                                           framer.extent().low.z - painter.reach())
+                                         : framer.camera(painter.reach());
   Image image = implementation_->draw(camera, options);
   require_no_gl_error("drawing the picture");
   return image;

@@ -17,9 +17,10 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// The picture that `options` describe, of the whole scene with a margin. The same bytes for the same input
-  /// on the same device. Throws InputError if options.color_by or options.style asks for what the scene lacks
-  /// and GraphicsError if the picture is larger than OpenGL allows. Width and height must be at least 1.
+  /// The picture that `options` describe, of the whole scene with a margin or of one place. The same bytes
+  /// for the same input on the same device. Throws InputError if options.color_by or options.style asks for
+  /// what the scene lacks and GraphicsError if the picture is larger than OpenGL allows. Width and height
+  /// must be at least 1.
   Image render(const Scene& scene, const RenderOptions& options);
 
   /// Who draws: OpenGL's name of the device, for example "llvmpipe (LLVM 15.0.6, 256 bits)".

@@ -18,6 +18,9 @@ namespace {
 constexpr ColorBytes kBlack{0, 0, 0, 255};
 constexpr ColorBytes kLeafGreen{86, 118, 52, 255};
 
+// Obstacles are shown this far around a tree, in parts of its size: a long wall does not make it small.
+constexpr double kObstacleRoom = 0.25;
+
 std::vector<ColorBytes> bytes_of(const std::vector<Color>& colors) {
   std::vector<ColorBytes> bytes(colors.size());
   std::transform(colors.begin(), colors.end(), bytes.begin(), color_bytes);
@@ -78,6 +81,16 @@ Vec3 base_of(const Scene& scene) {
     for (const Vec3f& position : scene.mesh->positions) box.include(Vec3(position));
   }
   return box.is_empty() ? Vec3(0.0) : Vec3(box.center().x, box.low.y, box.center().z);
+}
+
+Box obstacle_room(const Mesh& obstacles, const Box& tree) {
+  Box box;
+  if (tree.is_empty()) return box;
+  for (const Vec3f& position : obstacles.positions) box.include(Vec3(position));
+  const Vec3 size = tree.size();
+  const double around = kObstacleRoom * std::max({size.x, size.y, size.z});
+  Box room{glm::max(box.low, tree.low - around), glm::min(box.high, tree.high + around)};
+  return room.is_empty() ? Box() : room;
 }
 
 bool shows_materials(const Mesh& mesh) {

@@ -27,6 +27,7 @@ struct RenderOptions {
   int width = 1024;
   int height = 1024;
   ViewDirection view;
+  std::optional<CloseUp> close_up;  // else all of the scene is in the picture
   RenderStyle style = RenderStyle::lit;
   std::optional<Color> background;  // else a sky if lit, white otherwise
   std::string color_by;       // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
@@ -40,11 +41,16 @@ struct Scene {
   const Mesh* mesh = nullptr;          // null is drawn as an empty one
   const Skeleton* skeleton = nullptr;  // null for a mesh read from a file
   const SkyLight* sky = nullptr;       // of the mesh, where it was made before; null: made when it is needed
+  const Mesh* obstacles = nullptr;     // what stands in the tree's way; null: nothing
 };
 
 /// Where the tree stands: the lowest root node or, without a skeleton, the middle of the mesh's underside;
 /// the origin for an empty scene. The ground is level with it.
 Vec3 base_of(const Scene& scene);
+
+/// What of the scene's obstacles a picture of the tree is to show: as much as is near it. `tree` is around
+/// the tree; empty if there is none or it is far away.
+Box obstacle_room(const Mesh& obstacles, const Box& tree);
 
 /// Whether the mesh has colours or images of its own, to be shown as they are.
 bool shows_materials(const Mesh& mesh);

@@ -15,11 +15,11 @@ CameraAxes sun_behind(const ViewDirection& view) {
   return camera_axes(view.azimuth_deg + kAzimuthFromView, kElevation);
 }
 
-SunView sun_view(const CameraAxes& sun, std::span<const Vec3f> tree, std::span<const Vec3f> figure,
+SunView sun_view(const CameraAxes& sun, std::initializer_list<std::span<const Vec3f>> casters,
                  double ground) {
   Box box;
-  for (std::span<const Vec3f> casters : {tree, figure}) {
-    for (const Vec3f& position : casters) {
+  for (const std::span<const Vec3f> caster : casters) {
+    for (const Vec3f& position : caster) {
       const Vec3 at(position);
       box.include(sun.coordinates(at));
       // Where the sun's ray through it meets the ground: the same place in the picture, only deeper.

@@ -1,6 +1,7 @@
 // The sun, and the parallel view from it that shadows are made with.
 #pragma once
 
+#include <initializer_list>
 #include <span>
 
 #include "common/base/geometry.h"
@@ -19,10 +20,9 @@ struct SunView {
   double depth = 1.0;            // metres
 };
 
-/// The view that just holds what casts shadows, the tree and the figure beside it, and these shadows on the
-/// ground, with room for the blur of their edges.
-SunView sun_view(const CameraAxes& sun, std::span<const Vec3f> tree, std::span<const Vec3f> figure,
-                 double ground);
+/// The view that just holds what casts shadows and these shadows on the ground, with room for the blur of
+/// their edges.
+SunView sun_view(const CameraAxes& sun, std::initializer_list<std::span<const Vec3f>> casters, double ground);
 
 /// Radius of the blur that a metre between the shadow's edge and what casts it brings: the sun's is 0.0047,
 /// ours a little more, as through haze.

@@ -1,10 +1,12 @@
 #include "viewer/view.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <stop_token>
 
 #include "common/base/errors.h"
@@ -94,12 +96,17 @@ class Drive {
     }
     if (is_settled && !was_settled_) bench.report.say("READY");
     was_settled_ = is_settled;
+    if (const auto& now = bench.distances.values(); now != distances_ && !bench.distances.is_busy()) {
+      bench.report.say(fmt::format("DISTANCES {:.4f}", fmt::join(*now, " ")));
+      distances_ = now;
+    }
     if (bench.message != message_) bench.report.say("MESSAGE " + bench.message);
     message_ = bench.message;
   }
 
  private:
   std::array<std::uint64_t, 2> told_{};
+  std::optional<TreeDistances::Values> distances_;
   std::string message_;
   bool was_settled_ = false;
 };
@@ -159,6 +166,7 @@ void view(const ViewServices& services, const ViewOptions& options) {
   Workbench bench{services, window, WidgetReport(options.is_driven)};
   if (!problem.empty()) bench.say(problem, true);
   take_over(settings, bench);
+  if (!window.notice().empty()) bench.report.say("NOTICE " + window.notice());
   bench.shows_gallery = options.shows_gallery && settings.shows_gallery;
   for (Opened& tree : opened) bench.seats.push_back(std::make_unique<Seat>(std::move(tree)));
   bench.active = 0;

@@ -65,29 +65,4 @@ std::vector<Vec3> surface_points(const Volume& volume, int cells) {
   return points;
 }
 
-std::vector<const Volume*> volumes_in(const Table& table, void* owner) {
-  std::vector<const Volume*> found;
-  for (const FieldRow& row : table) {
-    void* member = row.member(owner);
-    std::vector<void*> owners;
-    if (row.kind == FieldKind::group) owners = {member};
-    if (row.kind == FieldKind::list) {
-      for (std::size_t index = 0; index < row.size(member); ++index)
-        owners.push_back(row.item(member, index));
-    }
-    if (row.kind == FieldKind::map) {
-      for (const std::string& name : row.names(member)) owners.push_back(row.named(member, name));
-    }
-    for (void* inner : owners) {
-      if (&row.child() == &Volume::fields()) {
-        found.push_back(static_cast<const Volume*>(inner));
-      } else {
-        const std::vector<const Volume*> below = volumes_in(row.child(), inner);
-        found.insert(found.end(), below.begin(), below.end());
-      }
-    }
-  }
-  return found;
-}
-
 }  // namespace ramify

@@ -7,6 +7,7 @@
 
 #include "common/base/errors.h"
 #include "common/config/differences.h"
+#include "common/config/inheritance.h"
 #include "common/config/presets.h"
 #include "common/config/toml_reader.h"
 
@@ -129,7 +130,7 @@ double tend(Workbench& bench) {
     if (const auto due = seat->document.due_in(now)) wait = std::min(wait, *due);
   }
   finish_writing(bench);
-  if (bench.writing.valid()) wait = std::min(wait, 0.1);
+  if (bench.writing.valid() || bench.distances.is_busy()) wait = std::min(wait, 0.1);
   if (bench.is_moving()) wait = std::min(wait, bench.last_motion + kRest - now);
   return std::max(wait, 0.001);
 }
@@ -138,8 +139,12 @@ void take_edit(Workbench& bench, const WidgetOutcome& outcome, const Job& before
   if (!outcome.is_changed && !outcome.is_finished) return;
   const double at = bench.window.last_input();
   std::vector<Seat*> changed{&bench.seat()};
+  Job& job = bench.document().job();
+  if (outcome.is_changed) {
+    Job old = independent_copy(before);
+    follow_owner(job_table(*job.engine), &old, &job);
+  }
   if (outcome.is_changed && bench.are_parameters_linked) {
-    const Job& job = bench.document().job();
     const std::vector<Assignment> changes = differences(job_table(*job.engine), &before, &job);
     for (const auto& seat : bench.seats) {
       const bool is_other = seat.get() != &bench.seat() && seat->document.has_job();

@@ -13,6 +13,7 @@
 #include "viewer/pane.h"
 #include "viewer/panel.h"
 #include "viewer/show_options.h"
+#include "viewer/tree_distances.h"
 #include "viewer/view.h"
 #include "viewer/widget_report.h"
 #include "viewer/window.h"
@@ -65,6 +66,7 @@ struct Workbench {
   std::string message = {};    // about what was done last
   bool is_message_bad = false;
   std::optional<Prompt> prompt = {};
+  TreeDistances distances = {};           // while numbers are shown
   std::future<std::string> writing = {};  // what is to be said when a file is written
 
   Seat& seat() { return *seats[active]; }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <new>
 
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
 #include "viewer/scene.h"
@@ -20,6 +21,10 @@ constexpr double kNotifyEvery = 0.1;  // seconds
 // Sides of a draft's tubes: round enough to tell thick from thin.
 constexpr int kDraftSides = 3;
 constexpr int kDraftSidesOfTrunk = 8;
+
+// See surface_of().
+constexpr int kObstacleVoxels = 128;
+constexpr int kDraftObstacleVoxels = 32;
 
 double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -37,17 +42,8 @@ Looks looks_of(const Order& order) {
 /// After the step that `at` names, or up to the level where the tree has levels; the whole tree where it has
 /// neither.
 Skeleton shown_part(const Skeleton& whole, std::optional<std::uint32_t> at) {
-  if (!at) return living(whole);
-  if (!whole.birth_step.empty()) return cut_at_step(whole, *at);
-  if (!whole.level.empty()) return cut_at_level(whole, *at);
-  return living(whole);
-}
-
-std::uint32_t last_step(const Skeleton& tree) {
-  std::uint32_t last = 0;
-  for (const std::uint32_t step : tree.birth_step) last = std::max(last, step);
-  for (const std::uint16_t level : tree.level) last = std::max<std::uint32_t>(last, level);
-  return last;
+  const bool has_parts = !whole.birth_step.empty() || !whole.level.empty();
+  return at && has_parts ? cut_at(whole, *at) : living(whole);
 }
 
 }  // namespace
@@ -62,13 +58,17 @@ void dress(Product& product, const Order& order) {
   product.last_step = last_step(product.run->skeleton);
   product.skeleton = shown_part(product.run->skeleton, order.at);
   const std::uint64_t seed = order.job ? order.job->seed() : 0;
-  product.mesh = make_tree_mesh(product.skeleton, looks_of(order), seed).mesh;
+  product.mesh = make_tree_mesh(product.skeleton, looks_of(order), seed, std::move(product.mesh)).mesh;
   for (const Vec3& position : product.skeleton.position) product.box.include(position);
   for (const Vec3f& position : product.mesh.positions) product.box.include(Vec3(position));
+  if (order.job) {
+    product.obstacles = obstacle_mesh(*order.job, order.is_draft ? kDraftObstacleVoxels : kObstacleVoxels);
+    product.box.include(obstacle_room(product.obstacles, product.box));
+  }
   if (!order.is_draft) {
     product.sky = sky_light(product.mesh, base_of({.mesh = &product.mesh, .skeleton = &product.skeleton}).y);
   }
-  if (!order.is_draft) product.numbers = numbers_of(product.skeleton);
+  if (!order.is_draft) product.numbers = std::make_shared<const Numbers>(numbers_of(product.skeleton));
   product.mesh_seconds = now_seconds() - start;
 }
 
@@ -93,6 +93,11 @@ void Workshop::order(Order order) {
 std::unique_ptr<Product> Workshop::take() {
   const std::lock_guard lock(mutex_);
   return std::move(done_);
+}
+
+void Workshop::reuse(Mesh mesh) {
+  const std::lock_guard lock(mutex_);
+  spare_ = std::move(mesh);
 }
 
 WorkState Workshop::state() const {
@@ -145,6 +150,10 @@ std::unique_ptr<Product> Workshop::make(const Order& order, const std::stop_toke
       product->run = std::make_shared<const RunResult>(order.job->run(context));
       product->run_seconds = now_seconds() - start;
       if (stop.stop_requested()) return nullptr;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      product->mesh = std::move(spare_);
     }
     dress(*product, order);
   } catch (const std::bad_alloc&) {

@@ -43,9 +43,10 @@ struct Product {
   std::uint32_t last_step = 0;           // or level, of the whole run; 0 where there is neither
   Skeleton skeleton;                     // what is shown of it
   Mesh mesh;
-  Box box;                         // around both
-  SkyLight sky;                    // of the mesh; empty for a draft
-  std::optional<Numbers> numbers;  // of what is shown; none for a draft
+  Mesh obstacles;                          // of the job
+  Box box;                                 // around the tree, and the obstacles near it
+  SkyLight sky;                            // of the mesh; empty for a draft
+  std::shared_ptr<const Numbers> numbers;  // of what is shown; of a draft those of the tree before it
   bool is_draft = false;
   double run_seconds = 0.0;   // 0 if there was no run
   double mesh_seconds = 0.0;  // with cutting and the sky's light
@@ -73,6 +74,9 @@ class Workshop {
   /// The newest product not taken yet.
   std::unique_ptr<Product> take();
 
+  /// A mesh that is no longer shown: the next one is written into its memory.
+  void reuse(Mesh mesh);
+
   WorkState state() const;
 
  private:
@@ -90,10 +94,12 @@ class Workshop {
   double last_notified_ = 0.0;
   WorkState state_;
   std::unique_ptr<Product> done_;
+  Mesh spare_;
   std::jthread thread_;  // last: it uses all of the others
 };
 
-/// The tree of an order as it is to be shown: cut, meshed, and, unless it is a draft, with its sky light.
+/// The tree of an order as it is to be shown: cut, meshed, and, unless it is a draft, with its sky light. Of
+/// the mesh that product has, the memory is used again.
 void dress(Product& product, const Order& order);
 
 }  // namespace ramify

@@ -69,13 +69,6 @@ MetricComparison compare_metric(const MetricInfo& info, std::span<const Subject>
   return result;
 }
 
-constexpr std::array<DistanceInfo, kDistanceCount> kDistances = {{
-    {"scatter", "Angles, sizes and places of branches and segments (Potapov et al. 2017)", &scatter_distance},
-    {"morphology", "Lengths of branches along the paths from the root (Kanari et al. 2018)",
-     &morphology_distance},
-    {"shape", "Height, crown radius and where the tips are (Stava et al. 2014)", &shape_distance},
-}};
-
 }  // namespace
 
 Sample sample_of(const Skeleton& skeleton, std::uint64_t seed) {
@@ -86,10 +79,6 @@ std::vector<MetricComparison> compare_metrics(std::span<const Subject> subjects)
   std::vector<MetricComparison> result;
   for (const MetricInfo& info : metric_table()) result.push_back(compare_metric(info, subjects));
   return result;
-}
-
-std::span<const DistanceInfo, kDistanceCount> distance_table() {
-  return kDistances;
 }
 
 std::vector<PairDistance> pair_distances(std::span<const Subject> subjects,
@@ -111,7 +100,7 @@ std::vector<PairDistance> pair_distances(std::span<const Subject> subjects,
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const TreeForm& a = subjects[pairs[i].subject_a].samples[pairs[i].sample_a].form;
         const TreeForm& b = subjects[pairs[i].subject_b].samples[pairs[i].sample_b].form;
-        for (std::size_t k = 0; k < kDistanceCount; ++k) pairs[i].values[k] = kDistances[k].value(a, b);
+        pairs[i].values = distances_of(a, b);
       }
     });
   }

@@ -54,16 +54,6 @@ struct MetricComparison {
 
 std::vector<MetricComparison> compare_metrics(std::span<const Subject> subjects);
 
-struct DistanceInfo {
-  std::string_view key;
-  std::string_view help;  // one line
-  double (*value)(const TreeForm& a, const TreeForm& b) = nullptr;
-};
-
-/// Scatter, morphology, shape.
-inline constexpr std::size_t kDistanceCount = 3;
-std::span<const DistanceInfo, kDistanceCount> distance_table();
-
 /// Two trees: subject and sample of each.
 struct PairDistance {
   std::size_t subject_a = 0;

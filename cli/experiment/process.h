@@ -12,15 +12,16 @@ namespace ramify::cli {
 /// How a program ended.
 struct ProcessEnd {
   int code = 0;        // exit code; 128 + signal if it was killed
-  std::string errors;  // what it wrote on stderr
+  std::string output;  // what it wrote on stdout
+  std::string errors;  // and on stderr
 };
 
 /// A program that runs beside this one; killed if it still runs when this goes.
 class Process {
  public:
-  /// Starts a program, found in PATH, with these arguments (its name first). Its stdin holds `input`, its
-  /// stdout goes nowhere; it is a process group of its own, so that a Ctrl-C is for us to pass on. Nothing if
-  /// there is no such program. Throws RunError if it cannot be started.
+  /// Starts a program, found in PATH, with these arguments (its name first). Its stdin holds `input`; it
+  /// is a process group of its own, so that a Ctrl-C is for us to pass on. Nothing if there is no such
+  /// program. Throws RunError if it cannot be started.
   static std::optional<Process> start(const std::vector<std::string>& arguments,
                                       const std::string& input = {});
   ~Process();
@@ -42,9 +43,11 @@ class Process {
   ProcessEnd wait();
 
  private:
-  Process(pid_t id, int errors_file) : id_(id), errors_file_(errors_file) {}
+  Process(pid_t id, int output_file, int errors_file)
+      : id_(id), output_file_(output_file), errors_file_(errors_file) {}
 
   pid_t id_ = -1;  // -1: waited for, or moved away
+  int output_file_ = -1;
   int errors_file_ = -1;
   std::string errors_;
 };

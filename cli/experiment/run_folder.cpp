@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "cli/experiment/sweep_plan.h"
@@ -48,6 +49,17 @@ class HalfFolder {
 
   fs::path path_;
 };
+
+std::string machine() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+/// Process ids tell apart only what one machine writes.
+fs::path half_folder(const fs::path& runs, const std::string& name) {
+  return runs / fmt::format(".{}.{}.{}.tmp", name, machine(), getpid());
+}
 
 fs::path failure_file(const fs::path& runs, const std::string& name) {
   return runs / (name + ".failed");
@@ -102,7 +114,7 @@ void write_run(const fs::path& runs, const Job& job, const Skeleton& tree, doubl
                std::uint64_t peak_memory_bytes, const std::vector<std::string>& warnings) {
   const std::string config = to_toml(job);
   const std::string name = run_name(config);
-  HalfFolder folder(runs / fmt::format(".{}.{}.tmp", name, getpid()));
+  HalfFolder folder(half_folder(runs, name));
   OutputFiles files;
   files.add(folder.path() / kRunConfig) << config;
   write_skeleton(tree, SkeletonForm::ply, provenance_of(job), files.add(folder.path() / kRunTree));
@@ -146,7 +158,8 @@ void remove_leftovers(const fs::path& runs) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(runs, error)) {
     const std::string name = entry.path().filename().string();
-    if (name.front() == '.' && name.ends_with(".tmp")) fs::remove_all(entry.path(), error);
+    const bool is_others = entry.is_directory() && name.find("." + machine() + ".") == std::string::npos;
+    if (name.front() == '.' && name.ends_with(".tmp") && !is_others) fs::remove_all(entry.path(), error);
   }
 }
 

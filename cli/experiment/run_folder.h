@@ -40,7 +40,8 @@ void write_failure(const std::filesystem::path& runs, const std::string& name, c
 std::optional<std::string> read_failure(const std::filesystem::path& runs, const std::string& name);
 void forget_failure(const std::filesystem::path& runs, const std::string& name);
 
-/// Removes what killed processes left half-written. Nobody may be making runs there.
+/// Removes what killed processes of this machine left half-written. None of its processes may be making runs
+/// there; those of others may.
 void remove_leftovers(const std::filesystem::path& runs);
 
 }  // namespace ramify::cli

@@ -45,6 +45,11 @@ using Batch = std::vector<std::size_t>;  // indices of SweepPlan::runs
 /// `runs` (indices) in batches, those of one name once, in the order of the plan.
 std::vector<Batch> batches_of(const SweepPlan& plan, std::span<const std::size_t> runs);
 
+/// Which of `count` slices makes the run, for machines that share a sweep: a family stays together.
+inline std::size_t slice_of(const PlannedRun& run, std::size_t count) {
+  return run.family % count;
+}
+
 /// The plan as a file, for processes that make a part of it or gather the results.
 std::string plan_text(const SweepPlan& plan);
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/skeleton/skeleton.h"
@@ -64,5 +66,19 @@ double morphology_distance(const TreeForm& a, const TreeForm& b);
 /// the crown.
 /// O. Stava et al., Inverse procedural modelling of trees, Computer Graphics Forum 33, 2014.
 double shape_distance(const TreeForm& a, const TreeForm& b);
+
+/// What a distance is called and compares.
+struct DistanceInfo {
+  std::string_view key;
+  std::string_view help;  // one line
+  double (*value)(const TreeForm& a, const TreeForm& b) = nullptr;
+};
+
+/// Scatter, morphology, shape.
+inline constexpr std::size_t kDistanceCount = 3;
+std::span<const DistanceInfo, kDistanceCount> distance_table();
+
+/// All of them, in the table's order.
+std::array<double, kDistanceCount> distances_of(const TreeForm& a, const TreeForm& b);
 
 }  // namespace ramify

@@ -41,9 +41,12 @@ struct Box {
   Vec3 center() const { return 0.5 * (low + high); }
 };
 
+// The functions below that are templates take Vec3 and Vec3f.
+
 /// v / |v|, or `fallback` where v is shorter than `shortest`.
-inline Vec3 normalized_or(const Vec3& v, const Vec3& fallback, double shortest = 1e-6) {
-  const double length = glm::length(v);
+template <class V>
+V normalized_or(const V& v, const V& fallback, typename V::value_type shortest = typename V::value_type(1e-6)) {
+  const auto length = glm::length(v);
   return length < shortest ? fallback : v / length;
 }
 
@@ -55,10 +58,11 @@ inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {
 }
 
 /// A unit vector perpendicular to the unit vector `direction`; the same one for the same direction.
-inline Vec3 any_perpendicular(const Vec3& direction) {
+template <class V>
+V any_perpendicular(const V& direction) {
   // The coordinate axis that `direction` leans to least keeps the cross product long.
-  const Vec3 a = glm::abs(direction);
-  const Vec3 axis = a.x <= a.y && a.x <= a.z ? Vec3(1, 0, 0) : (a.y <= a.z ? Vec3(0, 1, 0) : Vec3(0, 0, 1));
+  const V a = glm::abs(direction);
+  const V axis = a.x <= a.y && a.x <= a.z ? V(1, 0, 0) : (a.y <= a.z ? V(0, 1, 0) : V(0, 0, 1));
   return glm::normalize(glm::cross(direction, axis));
 }
 

@@ -18,6 +18,8 @@
 
 namespace ramify {
 
+struct Volume;
+
 struct Progress {
   std::string_view stage;  // what is being done: "growing", "graph"
   double done = 0.0;
@@ -58,17 +60,24 @@ struct RunResult {
   Report report;
 };
 
+/// Volumes that a run looks at, where they are in the world; their addresses are the parameters' own.
+struct UsedVolumes {
+  std::vector<const Volume*> obstacles;  // what stands in the way
+  std::vector<const Volume*> others;     // where trees, markers and cuts may be
+};
+
 /// An engine. `seed` and `steps` are members of its Parameters and rows of its table (is_top_level).
 /// The other rows stand in the config's table that has the engine's name. steps() is how many steps, or
 /// levels, a run will take; has_history says whether a run that wants_history can be cut at any step
-/// (cut_at_step); layers() names the layers it can make. check() throws ConfigError for what no
-/// single range can say, with keys below the engine's table, and returns warnings.
+/// (cut_at_step); layers() names the layers it can make, volumes() the volumes it uses. check() throws
+/// ConfigError for what no single range can say, with keys below the engine's table, and returns warnings.
 template <class E>
 concept TreeEngine = requires(const typename E::Parameters& parameters, const RunContext& context) {
   { E::name } -> std::convertible_to<std::string_view>;
   { E::has_history } -> std::convertible_to<bool>;
   { E::layers(parameters) } -> std::same_as<std::vector<std::string>>;
   { E::Parameters::fields() } -> std::same_as<const Table&>;
+  { E::volumes(parameters) } -> std::same_as<UsedVolumes>;
   { E::check(parameters) } -> std::same_as<std::vector<std::string>>;
   { E::run(parameters, context) } -> std::same_as<RunResult>;
 }
@@ -85,6 +94,7 @@ struct AnyEngine {
   std::function<std::uint64_t(const void* parameters)> seed;
   std::function<int(const void* parameters)> steps;
   std::function<std::vector<std::string>(const void* parameters)> layers;
+  std::function<UsedVolumes(const void* parameters)> volumes;
   std::function<std::vector<std::string>(const void* parameters)> check;
   std::function<RunResult(const void* parameters, const RunContext&)> run;
 };
@@ -98,6 +108,7 @@ class EngineRegistry {
     engine.name = E::name;
     engine.has_history = E::has_history;
     engine.layers = [](const void* p) { return E::layers(*static_cast<const P*>(p)); };
+    engine.volumes = [](const void* p) { return E::volumes(*static_cast<const P*>(p)); };
     for (const FieldRow& row : P::fields()) {
       (row.info.is_top_level ? engine.top_fields : engine.fields).push_back(row);
     }

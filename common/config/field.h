@@ -69,9 +69,11 @@ struct FieldRow {
   std::function<void*(void* member, std::size_t index)> item;
   std::function<void(void* member)> clear;    // also of a map
   std::function<void*(void* member)> append;  // a default item, or a copy of the last (info.inherits)
+  std::function<void(void* member, std::size_t index)> remove;
   // map
   std::function<std::vector<std::string>(const void* member)> names;
   std::function<void*(void* member, const std::string& name)> named;  // made with defaults if it is new
+  std::function<void(void* member, const std::string& name)> remove_named;
 };
 
 /// What a struct must have to stand in a table: a table of its own.
@@ -81,9 +83,9 @@ concept HasFields = requires {
 };
 
 /// {key, member, info}: a row of the table of P. Members may be double, int, std::uint64_t (a seed), bool, an
-/// enum, Vec3, Schedule, Sketch, std::string, a file's path, a struct with a table of its own, a vector of such or a map
-/// of named ones. A path is read relative to the folder of the file that names it and kept so that it opens
-/// from the working directory.
+/// enum, Vec3, Schedule, Sketch, std::string, a file's path, a struct with a table of its own, a vector of
+/// such or a map of named ones. A path is read relative to the folder of the file that names it and kept so
+/// that it opens from the working directory.
 template <class P>
 struct Field : FieldRow {
   template <class M>
@@ -159,6 +161,10 @@ struct Field : FieldRow {
       items.push_back(std::move(added));
       return &items.back();
     };
+    remove = [](void* list, std::size_t index) {
+      auto& items = *static_cast<std::vector<T>*>(list);
+      items.erase(items.begin() + static_cast<std::ptrdiff_t>(index));
+    };
   }
 
   template <class T>
@@ -175,6 +181,9 @@ struct Field : FieldRow {
     clear = [](void* map) { static_cast<std::map<std::string, T>*>(map)->clear(); };
     named = [](void* map, const std::string& name) -> void* {
       return &(*static_cast<std::map<std::string, T>*>(map))[name];
+    };
+    remove_named = [](void* map, const std::string& name) {
+      static_cast<std::map<std::string, T>*>(map)->erase(name);
     };
   }
 };

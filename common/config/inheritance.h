@@ -12,4 +12,11 @@ namespace ramify {
 /// owner's dotted key, empty at the top.
 void inherit_from_owners(const Table& table, void* owner, const std::string& prefix, const Origins& origins);
 
+/// Appends to the list `row` of `table` the item that an empty one in a config stands for; returns it.
+void* append_item(const Table& table, void* owner, const FieldRow& row);
+
+/// After `owner` was changed by hand from what it was, `before`: items of the lists that inherit have the new
+/// values wherever they had the old ones. Of lists within items nothing follows. O(items * members).
+void follow_owner(const Table& table, void* before, void* owner);
+
 }  // namespace ramify

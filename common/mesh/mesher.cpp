@@ -67,10 +67,10 @@ const Table& MesherOptions::fields() {
 
 namespace {
 
-Mesh wood(const Skeleton& skeleton, const MesherOptions& options) {
+Mesh wood(const Skeleton& skeleton, const MesherOptions& options, Mesh memory) {
   switch (options.method) {
     case MeshMethod::smooth:
-      return smooth_mesh(skeleton, options);
+      return smooth_mesh(skeleton, options, std::move(memory));
     case MeshMethod::cones:
       return cones_mesh(skeleton, options);
     case MeshMethod::watertight:
@@ -94,10 +94,10 @@ void color_vertices(Mesh& mesh, const std::vector<Color>& of_node) {
 
 }  // namespace
 
-Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options) {
-  if (options.color_by.empty()) return wood(skeleton, options);
+Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh memory) {
+  if (options.color_by.empty()) return wood(skeleton, options, std::move(memory));
   const std::vector<Color> of_node = attribute_colors(skeleton, options.color_by, "mesher.color_by");
-  Mesh mesh = wood(skeleton, options);
+  Mesh mesh = wood(skeleton, options, std::move(memory));
   color_vertices(mesh, of_node);
   return mesh;
 }

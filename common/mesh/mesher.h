@@ -40,7 +40,8 @@ struct MesherOptions {
 
 /// The wood of a tree by options.method. All triangles have the one material "bark"; where vertices have
 /// colours it is white. A skeleton without internodes gives an empty mesh. Throws InputError if the skeleton
-/// lacks the attribute options.color_by, or if the budget of triangles is too small for it.
-Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options);
+/// lacks the attribute options.color_by, or if the budget of triangles is too small for it. `memory` is a
+/// mesh that is no longer needed: "smooth" writes into its memory, which saves the system handing out new.
+Mesh build_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh memory = {});
 
 }  // namespace ramify

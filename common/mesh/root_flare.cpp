@@ -23,7 +23,7 @@ constexpr int kLobes = 5;
 constexpr int kUnevenness = 3;
 constexpr double kLobesShare = 0.65;
 
-LinePoint between(const LinePoint& a, const LinePoint& b, double t) {
+LinePoint between(const LinePoint& a, const LinePoint& b, float t) {
   return {glm::mix(a.position, b.position, t), normalized_or(glm::mix(a.along, b.along, t), b.along),
           glm::mix(a.radius, b.radius, t), b.node};
 }
@@ -59,12 +59,12 @@ void add_flare_points(const RootFlare& flare, std::vector<LinePoint>& points) {
   double from = 0.0;
   std::size_t next = 1;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const double length = glm::length(points[i].position - points[i - 1].position);
+    const double length = glm::distance(points[i].position, points[i - 1].position);
     for (; next < kShares.size() && kShares[next] * flare.height < from + length; ++next) {
       const double t = (kShares[next] * flare.height - from) / length;
       const double apart = kApart * flare.height;
       if (t * length > apart && (1.0 - t) * length > apart)
-        all.push_back(between(points[i - 1], points[i], t));
+        all.push_back(between(points[i - 1], points[i], static_cast<float>(t)));
     }
     all.push_back(points[i]);
     from += length;

@@ -1,17 +1,13 @@
 #include "common/mesh/simplify_closed.h"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
-#include <span>
-#include <vector>
-
-#include "common/base/parallel.h"
 
 namespace ramify {
 namespace {
 
-// A pass in which a smaller part of the vertices goes is the last.
+// A sweep in which a smaller part of the vertices goes is the last.
 constexpr double kWorthwhile = 0.02;
 
 // Cosine of the greatest angle between a triangle and the normals of its vertices.
@@ -20,209 +16,210 @@ constexpr float kFacing = 0.8f;
 // 4 sqrt(3) area / sum of squared sides: 1 for an equilateral triangle.
 constexpr float kQuality = 0.3f;
 
+// A cell of a grid has twelve edges, each with two of its vertex's triangles at most.
+constexpr std::size_t kRoom = 24;
 constexpr std::size_t kValenceMax = 14;
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-using Triangle = std::array<std::uint32_t, 3>;
+/// The triangles around a vertex.
+struct Star {
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, kRoom> triangles;
 
-/// The triangles around each vertex.
-struct Stars {
-  std::vector<std::uint32_t> first;  // of each vertex; one more at the end
-  std::vector<std::uint32_t> triangles;
-
-  Stars(std::size_t vertices, std::span<const Triangle> all)
-      : first(vertices + 1, 0), triangles(3 * all.size()) {
-    for (const Triangle& triangle : all) {
-      for (const std::uint32_t vertex : triangle) ++first[vertex + 1];
-    }
-    for (std::size_t v = 0; v < vertices; ++v) first[v + 1] += first[v];
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t t = 0; t < all.size(); ++t) {
-      for (const std::uint32_t vertex : all[t]) triangles[next[vertex]++] = t;
-    }
+  void add(std::uint32_t triangle) {
+    assert(count < kRoom);
+    triangles[count++] = triangle;
   }
-
-  std::span<const std::uint32_t> of(std::uint32_t vertex) const {
-    return std::span(triangles).subspan(first[vertex], first[vertex + 1] - first[vertex]);
+  void remove(std::uint32_t triangle) {
+    auto* const last = triangles.begin() + count;
+    auto* const found = std::find(triangles.begin(), last, triangle);
+    if (found == last) return;
+    std::move(found + 1, last, found);
+    --count;
   }
+  const std::uint32_t* begin() const { return triangles.data(); }
+  const std::uint32_t* end() const { return triangles.data() + count; }
 };
 
-/// Where a vertex may go, and how far the surface moves then.
-struct Collapse {
-  std::uint32_t target = kNone;
-  float error = 0.0f;
-};
+bool has(const Triangle& triangle, std::uint32_t vertex) {
+  return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
+}
 
-/// One round of collapses that do not touch each other.
-class Pass {
+class Collapser {
  public:
-  /// `is_settled`: vertices that found no way to go, and around which nothing has changed since.
-  Pass(ClosedSurface& surface, std::vector<float>& error, std::vector<std::uint8_t>& is_settled,
-       float tolerance)
-      : surface_(surface),
-        error_(error),
-        is_settled_(is_settled),
-        tolerance_(tolerance),
-        stars_(surface.positions.size(), surface.triangles) {}
+  Collapser(CollapsibleMesh& mesh, float tolerance)
+      : mesh_(mesh), tolerance_(tolerance), stars_(mesh.positions.size()) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (const std::uint32_t vertex : mesh.triangles[t]) stars_[vertex].add(t);
+    }
+  }
 
-  /// Returns how many vertices went. Their triangles are left degenerate.
-  std::size_t run() {
-    const std::size_t count = surface_.positions.size();
-    std::vector<Collapse> wishes(count);
-    parallel_for(count, 1024, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        if (is_settled_[v] != 0) continue;
-        wishes[v] = wish_of(static_cast<std::uint32_t>(v));
-        is_settled_[v] = wishes[v].target == kNone;
-      }
-    });
-    std::vector<bool> is_touched(count, false);
+  void run() {
+    std::size_t left = mesh_.positions.size();
+    for (;;) {
+      const std::size_t gone = sweep();
+      if (gone == 0 || static_cast<double>(gone) < kWorthwhile * static_cast<double>(left)) break;
+      left -= gone;
+    }
+    const auto is_gone = [](const Triangle& triangle) { return triangle[0] == kNone; };
+    auto& triangles = mesh_.triangles;
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_gone), triangles.end());
+  }
+
+ private:
+  /// Two vertices around v that follow it in a triangle, with all that a collapse asks of them.
+  struct Side {
+    std::uint32_t a, b;
+    Vec3f at_a, at_b;
+    Vec3f normal_a, normal_b;
+  };
+
+  struct Collapse {
+    std::uint32_t target = kNone;
+    float quality = 0.0f;  // of the worst new triangle; 0 where the collapse is not allowed
+    float error = 0.0f;    // how far the surface has moved then
+  };
+
+  /// Collapses that do not touch each other; returns how many.
+  std::size_t sweep() {
+    is_touched_.assign(stars_.size(), false);
     std::size_t gone = 0;
-    for (std::uint32_t v = 0; v < count; ++v) {
-      if (wishes[v].target == kNone || !is_free(v, wishes[v].target, is_touched)) continue;
-      commit(v, wishes[v], is_touched);
+    for (std::uint32_t v = 0; v < stars_.size(); ++v) {
+      Freedom& own = mesh_.freedom[v];
+      if (!own.can_go || !own.is_whole || own.is_settled || stars_[v].count == 0 || is_near_change(v))
+        continue;
+      const Collapse wish = wish_of(v);
+      if (wish.target == kNone) {
+        own.is_settled = true;
+        continue;
+      }
+      commit(v, wish);
       ++gone;
     }
     return gone;
   }
 
- private:
-  static bool has(const Triangle& triangle, std::uint32_t vertex) {
-    return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
-  }
-
-  std::array<Vec3f, 3> corners(const Triangle& triangle) const {
-    return {surface_.positions[triangle[0]], surface_.positions[triangle[1]],
-            surface_.positions[triangle[2]]};
-  }
-
-  Collapse wish_of(std::uint32_t v) const {
-    const std::span<const std::uint32_t> star = stars_.of(v);
-    if (star.empty() || star.size() > kValenceMax) return {};
-    Collapse best;
-    float best_quality = 0.0f;
-    for (const std::uint32_t t : star) {
-      const Triangle& triangle = surface_.triangles[t];
-      // Each neighbour follows v in one triangle.
-      const auto at =
-          static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), v) - triangle.begin());
-      const std::uint32_t target = triangle[(at + 1) % 3];
-      const auto [quality, error] = outcome(v, target);
-      if (quality > best_quality && keeps_manifold(v, target)) {
-        best = {target, error};
-        best_quality = quality;
+  /// Whether something around v has changed in this sweep: it has its turn in the next one, so that what goes
+  /// is spread evenly.
+  bool is_near_change(std::uint32_t v) const {
+    if (is_touched_[v]) return true;
+    for (const std::uint32_t t : stars_[v]) {
+      for (const std::uint32_t vertex : mesh_.triangles[t]) {
+        if (is_touched_[vertex]) return true;
       }
+    }
+    return false;
+  }
+
+  Collapse wish_of(std::uint32_t v) {
+    if (stars_[v].count > kValenceMax) return {};
+    sides_.clear();
+    for (const std::uint32_t t : stars_[v]) {
+      const Triangle& triangle = mesh_.triangles[t];
+      const std::size_t at = triangle[0] == v ? 0 : (triangle[1] == v ? 1 : 2);
+      const std::uint32_t a = triangle[(at + 1) % 3];
+      const std::uint32_t b = triangle[(at + 2) % 3];
+      sides_.push_back({a, b, mesh_.positions[a], mesh_.positions[b], mesh_.normals[a], mesh_.normals[b]});
+    }
+    Collapse best;
+    for (const Side& side : sides_) {
+      if (!mesh_.freedom[side.a].is_whole) continue;
+      const Collapse one = outcome(v, side);
+      if (one.quality > best.quality && keeps_manifold(v, one.target)) best = one;
     }
     return best;
   }
 
-  struct Outcome {
-    float quality = 0.0f;  // of the worst new triangle; 0 where the collapse is not allowed
-    float error = 0.0f;
-  };
-
-  Outcome outcome(std::uint32_t v, std::uint32_t target) const {
-    Outcome result{1.0f, 0.0f};
-    const Vec3f shift = surface_.positions[v] - surface_.positions[target];
-    for (const std::uint32_t t : stars_.of(v)) {
-      Triangle triangle = surface_.triangles[t];
-      if (has(triangle, target)) continue;
-      std::replace(triangle.begin(), triangle.end(), v, target);
-      const auto [a, b, c] = corners(triangle);
-      const Vec3f cross = glm::cross(b - a, c - a);
+  /// Of the collapse of v to the side's first end.
+  Collapse outcome(std::uint32_t v, const Side& onto) const {
+    const Vec3f shift = mesh_.positions[v] - onto.at_a;
+    Collapse result{onto.a, 1.0f, 0.0f};
+    for (const Side& side : sides_) {
+      if (side.a == onto.a || side.b == onto.a) continue;
+      const Vec3f first = side.at_a - onto.at_a;
+      const Vec3f second = side.at_b - onto.at_a;
+      const Vec3f cross = glm::cross(first, second);
       const float area = glm::length(cross);
-      if (!(area > 0.0f)) return {};
-      const Vec3f normal = cross / area;
-      for (const std::uint32_t corner : triangle) {
-        if (glm::dot(normal, surface_.normals[corner]) < kFacing) return {};
+      const float facing = kFacing * area;
+      if (!(area > 0.0f) || glm::dot(cross, onto.normal_a) < facing ||
+          glm::dot(cross, side.normal_a) < facing || glm::dot(cross, side.normal_b) < facing) {
+        return {};
       }
-      const auto squared = [](const Vec3f& side) { return glm::dot(side, side); };
-      const float sides = squared(b - a) + squared(c - b) + squared(a - c);
-      result.quality = std::min(result.quality, 2.0f * std::numbers::sqrt3_v<float> * area / sides);
-      result.error = std::max(result.error, std::abs(glm::dot(normal, shift)));
+      const Vec3f third = second - first;
+      const float squares = glm::dot(first, first) + glm::dot(second, second) + glm::dot(third, third);
+      result.quality = std::min(result.quality, 2.0f * std::numbers::sqrt3_v<float> * area / squares);
+      result.error = std::max(result.error, std::abs(glm::dot(cross, shift)) / area);
+      if (result.quality < kQuality || result.error + mesh_.errors[v] > tolerance_) return {};
     }
-    result.error += error_[v];
-    if (result.quality < kQuality || result.error > tolerance_) return {};
+    result.error += mesh_.errors[v];
     return result;
   }
 
   /// v and the target have no neighbours in common but the two across their edge, and those keep three
   /// triangles.
   bool keeps_manifold(std::uint32_t v, std::uint32_t target) const {
-    if (stars_.of(v).size() + stars_.of(target).size() > kValenceMax + 4) return false;
+    if (stars_[v].count + stars_[target].count > kValenceMax + 4) return false;
     std::size_t common = 0;
-    for (const std::uint32_t t : stars_.of(v)) {
-      const Triangle& triangle = surface_.triangles[t];
-      const auto at =
-          static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), v) - triangle.begin());
-      const std::uint32_t neighbour = triangle[(at + 1) % 3];
-      if (neighbour == target) continue;
-      const std::span<const std::uint32_t> others = stars_.of(target);
-      const bool is_common = std::any_of(others.begin(), others.end(), [&](std::uint32_t other) {
-        return has(surface_.triangles[other], neighbour);
-      });
+    for (const Side& side : sides_) {
+      if (side.a == target) continue;
+      const bool is_common = std::any_of(stars_[target].begin(), stars_[target].end(),
+                                         [&](std::uint32_t t) { return has(mesh_.triangles[t], side.a); });
       if (!is_common) continue;
       ++common;
-      if (stars_.of(neighbour).size() < 4) return false;
+      if (stars_[side.a].count < 4) return false;
     }
     return common == 2;
   }
 
-  /// Nothing that the wish rests on has changed in this pass.
-  bool is_free(std::uint32_t v, std::uint32_t target, const std::vector<bool>& is_touched) const {
-    if (is_touched[v] || is_touched[target]) return false;
-    for (const std::uint32_t t : stars_.of(v)) {
-      for (const std::uint32_t vertex : surface_.triangles[t]) {
-        if (is_touched[vertex]) return false;
-      }
-    }
-    return true;
-  }
-
-  void commit(std::uint32_t v, const Collapse& collapse, std::vector<bool>& is_touched) {
-    for (const std::uint32_t t : stars_.of(v)) {
-      Triangle& triangle = surface_.triangles[t];
+  void commit(std::uint32_t v, const Collapse& collapse) {
+    const Star star = stars_[v];
+    for (const std::uint32_t t : star) {
+      Triangle& triangle = mesh_.triangles[t];
       for (const std::uint32_t vertex : triangle) {
-        is_touched[vertex] = true;
-        is_settled_[vertex] = 0;
+        is_touched_[vertex] = true;
+        mesh_.freedom[vertex].is_settled = false;
       }
-      const bool vanishes = has(triangle, collapse.target);
-      std::replace(triangle.begin(), triangle.end(), v, collapse.target);
-      if (vanishes) triangle = {kNone, kNone, kNone};
+      if (has(triangle, collapse.target)) {
+        for (const std::uint32_t vertex : triangle) stars_[vertex].remove(t);
+        triangle = {kNone, kNone, kNone};
+      } else {
+        std::replace(triangle.begin(), triangle.end(), v, collapse.target);
+        stars_[collapse.target].add(t);
+      }
     }
-    error_[collapse.target] = std::max(error_[collapse.target], collapse.error);
+    stars_[v].count = 0;
+    mesh_.errors[collapse.target] = std::max(mesh_.errors[collapse.target], collapse.error);
   }
 
-  ClosedSurface& surface_;
-  std::vector<float>& error_;
-  std::vector<std::uint8_t>& is_settled_;
+  CollapsibleMesh& mesh_;
   float tolerance_;
-  Stars stars_;
+  std::vector<Star> stars_;
+  std::vector<bool> is_touched_;
+  std::vector<Side> sides_;  // scratch
 };
-
-template <class T>
-void keep_only(const std::vector<std::uint32_t>& kept, std::vector<T>& values) {
-  for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-  values.resize(kept.size());
-}
 
 }  // namespace
 
-void simplify_closed(ClosedSurface& surface, double tolerance) {
-  std::vector<float> error(surface.positions.size(), 0.0f);
-  std::vector<std::uint8_t> is_settled(surface.positions.size(), 0);
-  for (;;) {
-    const std::size_t before = surface.positions.size();
-    const std::size_t gone = Pass(surface, error, is_settled, static_cast<float>(tolerance)).run();
-    const auto is_gone = [](const Triangle& triangle) { return triangle[0] == kNone; };
-    auto& triangles = surface.triangles;
-    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_gone), triangles.end());
-    const std::vector<std::uint32_t> kept = drop_unused_vertices(surface);
-    keep_only(kept, error);
-    keep_only(kept, is_settled);
-    if (static_cast<double>(gone) < kWorthwhile * static_cast<double>(before)) return;
+void simplify_closed(CollapsibleMesh& mesh, double tolerance) {
+  Collapser(mesh, static_cast<float>(tolerance)).run();
+}
+
+std::vector<std::uint32_t> drop_unused(std::vector<bool> is_kept, BulkVector<Triangle>& triangles) {
+  for (const Triangle& triangle : triangles) {
+    for (const std::uint32_t vertex : triangle) is_kept[vertex] = true;
   }
+  std::vector<std::uint32_t> place(is_kept.size(), kNone);
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t v = 0; v < is_kept.size(); ++v) {
+    if (!is_kept[v]) continue;
+    place[v] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(v);
+  }
+  for (Triangle& triangle : triangles) {
+    for (std::uint32_t& vertex : triangle) vertex = place[vertex];
+  }
+  return kept;
 }
 
 }  // namespace ramify

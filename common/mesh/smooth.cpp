@@ -15,10 +15,10 @@ namespace {
 constexpr std::size_t kGrain = 256;
 
 // Of a round tip, in radii of its branch: where its ring stands, how wide it is, and where it ends.
-constexpr double kTipRing = 0.6;
-constexpr double kTipRingRadius = 0.75;
-constexpr double kTipLength = 1.0;
-constexpr double kPointedTipLength = 2.0;
+constexpr float kTipRing = 0.6f;
+constexpr float kTipRingRadius = 0.75f;
+constexpr float kTipLength = 1.0f;
+constexpr float kPointedTipLength = 2.0f;
 
 /// Points of a circle of so many sides, one a side. O(1) after the first call.
 const Vec2f* unit_circle(std::uint32_t sides) {
@@ -39,45 +39,89 @@ const Vec2f* unit_circle(std::uint32_t sides) {
   return &circles.points[sides * (sides - 1) / 2];
 }
 
+/// Unit vectors along a tube's line and across it.
+struct Frame {
+  Vec3f along;
+  Vec3f side;
+  Vec3f across;
+
+  void set(const Vec3f& new_along, const Vec3f& new_side) {
+    along = new_along;
+    side = new_side;
+    across = glm::cross(along, side);
+  }
+
+  /// Carries it on without twist to where the line runs along `next` (parallel transport).
+  void turn_to(const Vec3f& next) {
+    // The turn from a to b takes v, square to a, to v - (a + b) b.v / (1 + a.b). Half a turn leaves it.
+    const float cosine = glm::dot(along, next);
+    Vec3f carried = side;
+    if (cosine > -0.9999f) carried -= (along + next) * (glm::dot(next, side) / (1.0f + cosine));
+    // A step of Newton's: rounding would add up over thousands of rings.
+    set(next, carried * (1.5f - 0.5f * glm::dot(carried, carried)));
+  }
+};
+
+/// A unit vector square to a line's direction, found without a branch: any_perpendicular() goes a way of its
+/// own for each twig, which the processor does not foresee.
+/// T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+Vec3f square_to(const Vec3f& along) {
+  const float sign = std::copysign(1.0f, along.z);
+  const float a = -1.0f / (sign + along.z);
+  return {along.x * along.y * a, sign + along.y * along.y * a, -along.y};
+}
+
 /// Writes tubes into their parts of the mesh, one after the other.
 class TubeWriter {
  public:
   TubeWriter(const TubePlan& plan, Mesh& mesh) : plan_(plan), mesh_(mesh) {}
 
-  void write(const Tube& tube) {
-    tube_ = &tube;
-    collect_knots(plan_, tube, knots_);
+  void write(std::size_t index) {
+    tube_ = &plan_.tubes[index];
+    collect_knots(plan_, index, knots_);
     Fork fork;
-    if (tube.collar > 0) {
-      fork = fork_at(plan_, tube);
+    if (tube_->collar > 0) {
+      fork = fork_at(plan_, index);
       move_base(fork);
     }
     points_.clear();
-    flare_ = trace_tube(plan_, tube, knots_, points_);
-    vertex_ = tube.first_vertex;
-    triangle_ = tube.first_triangle;
-    along_ = knots_[0].along;
-    side_ = any_perpendicular(along_);
-    v_ = 0.0;
-    from_base_ = 0.0;
-    if (tube.collar > 0) write_collar(fork);
-    write_rings();
-    write_tip();
-    if (tube.is_closed) write_flat_end();
+    flare_ = trace_tube(plan_, *tube_, knots_, points_);
+    vertex_ = tube_->first_vertex;
+    triangle_ = tube_->first_triangle;
+    frame_.set(knots_[0].along, square_to(knots_[0].along));
+    v_ = 0.0f;
+    from_base_ = 0.0f;
+    if (tube_->collar > 0) write_collar(fork);
+    circle_ = unit_circle(tube_->sides);
+    middles_ = unit_circle(2 * tube_->sides) + 1;
+    // Nearly all tubes of a large tree have three sides: there the compiler unrolls what runs over them.
+    if (tube_->sides == 3) {
+      write_rings<3>();
+      write_tip<3>();
+    } else {
+      write_rings<0>();
+      write_tip<0>();
+    }
+    if (tube_->is_closed) write_flat_end();
   }
 
  private:
+  template <std::uint32_t Sides>
+  std::uint32_t side_count() const {
+    return Sides > 0 ? Sides : tube_->sides;
+  }
+
   void move_base(const Fork& fork) {
-    knots_[0].position = fork.center;
+    knots_[0].position = Vec3f(fork.center);
     measure(knots_);
     knots_[1].room *= kRoomBesideCollar;
   }
 
-  void set_vertex(std::size_t vertex, const Vec3& position, const Vec3& normal, double u, double v,
+  void set_vertex(std::size_t vertex, const Vec3f& position, const Vec3f& normal, float u, float v,
                   std::uint32_t node) {
-    mesh_.positions[vertex] = Vec3f(position);
-    mesh_.normals[vertex] = glm::normalize(Vec3f(normal));
-    mesh_.uvs[vertex] = {static_cast<float>(u), static_cast<float>(v)};
+    mesh_.positions[vertex] = position;
+    mesh_.normals[vertex] = glm::normalize(normal);
+    mesh_.uvs[vertex] = {u, v};
     mesh_.internodes[vertex] = node;
   }
 
@@ -86,15 +130,22 @@ class TubeWriter {
                                     static_cast<std::uint32_t>(c)};
   }
 
-  /// Joins two rings; the lower one may have twice as many sides.
-  void join(std::size_t low, std::uint32_t low_sides, std::size_t high, std::uint32_t high_sides) {
-    if (low_sides == high_sides) {
-      for (std::uint32_t i = 0; i < low_sides; ++i) {
-        add_triangle(low + i, low + i + 1, high + i + 1);
-        add_triangle(low + i, high + i + 1, high + i);
-      }
-      return;
+  /// Joins two rings of as many sides.
+  template <std::uint32_t Sides>
+  void join(std::size_t low_ring, std::size_t high_ring, std::uint32_t sides_here) {
+    const std::uint32_t sides = Sides > 0 ? Sides : sides_here;
+    const auto low = static_cast<std::uint32_t>(low_ring);
+    const auto high = static_cast<std::uint32_t>(high_ring);
+    std::array<std::uint32_t, 3>* triangles = mesh_.triangles.data() + triangle_;
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      triangles[2 * i] = {low + i, low + i + 1, high + i + 1};
+      triangles[2 * i + 1] = {low + i, high + i + 1, high + i};
     }
+    triangle_ += 2 * sides;
+  }
+
+  /// Joins a ring to one of half as many sides.
+  void join_to_half(std::size_t low, std::size_t high, std::uint32_t high_sides) {
     for (std::uint32_t i = 0; i < high_sides; ++i) {
       add_triangle(low + 2 * i, low + 2 * i + 1, high + i);
       add_triangle(low + 2 * i + 1, high + i + 1, high + i);
@@ -102,92 +153,104 @@ class TubeWriter {
     }
   }
 
-  /// The rings from the parent's surface to the lateral's own.
+  /// The rings from the bearer's surface to the lateral's own.
   void write_collar(const Fork& fork) {
     const Knot& end = knots_[1];
     const std::uint32_t sides = tube_->sides;
     const double radius = knots_[0].radius;
-    Lateral lateral{.along = along_, .length = end.length, .radius = radius};
+    const Vec3 along(frame_.along);
+    Lateral lateral{.along = along, .length = end.length, .radius = radius};
     if (plan_.line == CentreLine::catmull_rom)
-      lateral.bow = spline_tangent(knots_, 1) - end.along * end.length;
+      lateral.bow = Vec3(spline_tangent(knots_, 1) - end.along * end.length);
     // A corner in the plane of the fork: the collar is the same on both sides.
-    const Vec3 up = fork.along - along_ * glm::dot(fork.along, along_);
-    side_ = normalized_or(up, side_, 1e-3);
-    side_ = glm::normalize(side_ - along_ * glm::dot(side_, along_));
+    const Vec3 up = fork.along - along * glm::dot(fork.along, along);
+    Vec3 side = normalized_or(up, Vec3(frame_.side), 1e-3);
+    side = glm::normalize(side - along * glm::dot(side, along));
+    frame_.set(frame_.along, Vec3f(side));
 
-    const Vec3 across = glm::cross(along_, side_);
+    const Vec3 across = glm::cross(along, side);
     const Vec2f* circle = unit_circle(sides);
     const double girth = 2.0 * std::numbers::pi * radius;
     for (std::uint32_t i = 0; i <= sides; ++i) {
       const Vec2f& turn = circle[i % sides];
-      const CollarLine line = collar_line(fork, lateral, side_ * double{turn.x} + across * double{turn.y});
-      const double top = glm::dot(line.top - fork.center, along_);
+      const CollarLine line = collar_line(fork, lateral, side * double{turn.x} + across * double{turn.y});
+      const double top = glm::dot(line.top - fork.center, along);
       const double length = glm::length(line.crotch - line.foot) + glm::length(line.top - line.crotch);
       for (std::uint32_t ring = 0; ring <= tube_->collar; ++ring) {
         const double t = static_cast<double>(ring) / tube_->collar;
         const SurfacePoint point = line.at(t);
-        set_vertex(vertex_ + ring * (sides + 1) + i, point.position, point.normal,
-                   static_cast<double>(i) / sides, (top - (1.0 - t) * length) / girth, end.node);
+        set_vertex(vertex_ + ring * (sides + 1) + i, Vec3f(point.position), Vec3f(point.normal),
+                   static_cast<float>(i) / static_cast<float>(sides),
+                   static_cast<float>((top - (1.0 - t) * length) / girth), end.node);
       }
     }
     for (std::uint32_t ring = 0; ring < tube_->collar; ++ring) {
-      join(vertex_ + ring * (sides + 1), sides, vertex_ + (ring + 1) * (sides + 1), sides);
+      join<0>(vertex_ + ring * (sides + 1), vertex_ + (ring + 1) * (sides + 1), sides);
     }
     vertex_ += (tube_->collar + 1) * (sides + 1);
   }
 
-  /// How fast the tube narrows at a point: lost radius a metre.
-  double taper(std::size_t i) const {
-    const LinePoint& low = points_[i == 0 ? 0 : i - 1];
-    const LinePoint& high = points_[std::min(i + 1, points_.size() - 1)];
-    const double length = glm::length(high.position - low.position);
-    return length > plan_.thinnest ? (low.radius - high.radius) / length : 0.0;
-  }
-
+  template <std::uint32_t Sides>
   void write_rings() {
     const std::size_t count = points_.size() - (tube_->is_pointed ? 1 : 0);
+    float length = 0.0f;  // from the point before
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const LinePoint& point = points_[i];
+      const LinePoint& low = points_[i == 0 ? 0 : i - 1];
+      const LinePoint& high = points_[std::min(i + 1, points_.size() - 1)];
+      const float next_length = glm::distance(point.position, high.position);
       if (i > 0) {
-        const double length = glm::length(point.position - points_[i - 1].position);
-        v_ += length / (std::numbers::pi * (point.radius + points_[i - 1].radius));
+        v_ += length / (std::numbers::pi_v<float> * (point.radius + low.radius));
         from_base_ += length;
-        side_ = transported(side_, along_, point.along);
-        along_ = point.along;
+        frame_.turn_to(point.along);
       }
-      if (i >= count || (i == 0 && tube_->collar > 0)) continue;
-      const std::size_t ring = vertex_;
-      const bool is_wide = i < tube_->flare_rings;
-      const std::uint32_t sides = tube_->sides * (is_wide ? 2 : 1);
-      // The first ring shows the same internode as the one above it.
-      const std::uint32_t node = i == 0 ? knots_[1].node : point.node;
-      if (is_wide) {
-        write_flared_ring(point, sides, node);
-      } else {
-        write_ring(point, taper(i), node);
+      if (i < count && !(i == 0 && tube_->collar > 0)) {
+        const float both = length + next_length;
+        const float taper = both > plan_.axes->thinnest ? (low.radius - high.radius) / both : 0.0f;
+        // The first ring shows the same internode as the one above it.
+        write_and_join<Sides>(i, taper, i == 0 ? knots_[1].node : point.node);
       }
-      if (i > 0) {
-        const std::uint32_t low_sides = tube_->sides * (i <= tube_->flare_rings ? 2 : 1);
-        join(ring - low_sides - 1, low_sides, ring, sides);
-      }
+      length = next_length;
     }
   }
 
-  void write_ring(const LinePoint& point, double slope, std::uint32_t node) {
-    const std::uint32_t sides = tube_->sides;
-    const Vec3 across = glm::cross(along_, side_);
-    const double shorten = 1.0 / std::sqrt(1.0 + slope * slope);
-    const Vec3f center(point.position);
-    const Vec3f side_offset(side_ * point.radius);
-    const Vec3f across_offset(across * point.radius);
-    const Vec3f lean(along_ * (slope * shorten));
-    const Vec3f side_normal(side_ * shorten);
-    const Vec3f across_normal(across * shorten);
-    const Vec2f* circle = unit_circle(sides);
+  /// A ring of the line, and the band to the one below.
+  template <std::uint32_t Sides>
+  void write_and_join(std::size_t i, float taper, std::uint32_t node) {
+    const std::size_t ring = vertex_;
+    const std::uint32_t sides = side_count<Sides>();
+    if (i < tube_->flare_rings) {
+      write_flared_ring(points_[i], 2 * sides, node);
+      if (i > 0) join<0>(ring - 2 * sides - 1, ring, 2 * sides);
+      return;
+    }
+    write_ring<Sides>(points_[i], taper, node);
+    if (i == 0) return;
+    if (i == tube_->flare_rings) {
+      join_to_half(ring - 2 * sides - 1, ring, sides);
+    } else {
+      join<Sides>(ring - sides - 1, ring, sides);
+    }
+  }
+
+  /// A circle whose normals lean with the slope: lost radius a metre.
+  template <std::uint32_t Sides>
+  void write_ring(const LinePoint& point, float slope, std::uint32_t node) {
+    const std::uint32_t sides = side_count<Sides>();
+    const float shorten = 1.0f / std::sqrt(1.0f + slope * slope);
+    const Vec3f center = point.position;
+    const Vec3f side_offset = frame_.side * point.radius;
+    const Vec3f across_offset = frame_.across * point.radius;
+    const Vec3f lean = frame_.along * (slope * shorten);
+    const Vec3f side_normal = frame_.side * shorten;
+    const Vec3f across_normal = frame_.across * shorten;
+    const Vec2f* circle = circle_;
     const float step = 1.0f / static_cast<float>(sides);
-    const auto v = static_cast<float>(v_);
-    Vec3f* positions = &mesh_.positions[vertex_];
-    Vec3f* normals = &mesh_.normals[vertex_];
+    const float v = v_;
+    Vec3f* positions = mesh_.positions.data() + vertex_;
+    Vec3f* normals = mesh_.normals.data() + vertex_;
+    Vec2f* uvs = mesh_.uvs.data() + vertex_;
+    std::uint32_t* internodes = mesh_.internodes.data() + vertex_;
     for (std::uint32_t i = 0; i < sides; ++i) {
       positions[i] = center + side_offset * circle[i].x + across_offset * circle[i].y;
       normals[i] = lean + side_normal * circle[i].x + across_normal * circle[i].y;
@@ -195,59 +258,67 @@ class TubeWriter {
     positions[sides] = positions[0];
     normals[sides] = normals[0];
     for (std::uint32_t i = 0; i <= sides; ++i) {
-      mesh_.uvs[vertex_ + i] = {static_cast<float>(i) * step, v};
-      mesh_.internodes[vertex_ + i] = node;
+      uvs[i] = {static_cast<float>(i) * step, v};
+      internodes[i] = node;
     }
     vertex_ += sides + 1;
   }
 
   void write_flared_ring(const LinePoint& point, std::uint32_t sides, std::uint32_t node) {
-    const Vec3 across = glm::cross(along_, side_);
     for (std::uint32_t i = 0; i <= sides; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i % sides) / sides;
-      const Vec3 outwards = side_ * std::cos(angle) + across * std::sin(angle);
-      const Vec3 around = across * std::cos(angle) - side_ * std::sin(angle);
+      const auto cosine = static_cast<float>(std::cos(angle));
+      const auto sine = static_cast<float>(std::sin(angle));
+      const Vec3f outwards = frame_.side * cosine + frame_.across * sine;
+      const Vec3f around = frame_.across * cosine - frame_.side * sine;
       const RootFlare::Widening wide = flare_.at(from_base_ / flare_.height, angle);
-      const Vec3 normal = outwards - around * (wide.by_angle / wide.factor) -
-                          along_ * (wide.by_share * point.radius / flare_.height);
-      set_vertex(vertex_++, point.position + outwards * (point.radius * wide.factor), normal,
-                 static_cast<double>(i) / sides, v_, node);
+      const Vec3f normal = outwards - around * static_cast<float>(wide.by_angle / wide.factor) -
+                           frame_.along * static_cast<float>(wide.by_share * point.radius / flare_.height);
+      set_vertex(vertex_++, point.position + outwards * (point.radius * static_cast<float>(wide.factor)),
+                 normal, static_cast<float>(i) / static_cast<float>(sides), v_, node);
     }
   }
 
   /// Rounded, or a cone. Its point has a vertex for each side, so that shading runs round it.
+  template <std::uint32_t Sides>
   void write_tip() {
-    const LinePoint last = points_.back();
-    const std::uint32_t sides = tube_->sides;
-    double length = tube_->is_pointed ? 0.0 : kPointedTipLength * last.radius;
+    const LinePoint& last = points_.back();
+    const std::uint32_t sides = side_count<Sides>();
+    float length = tube_->is_pointed ? 0.0f : kPointedTipLength * last.radius;
     if (tube_->has_round_tip()) {
-      const double v = v_;
+      const float v = v_;
       LinePoint ring = last;
-      ring.position += along_ * (kTipRing * last.radius);
+      ring.position += frame_.along * (kTipRing * last.radius);
       ring.radius *= kTipRingRadius;
-      v_ += kTipRing / (2.0 * std::numbers::pi);
-      write_ring(ring, 1.0, last.node);
-      join(vertex_ - 2 * (sides + 1), sides, vertex_ - (sides + 1), sides);
+      v_ += kTipRing / (2.0f * std::numbers::pi_v<float>);
+      write_ring<Sides>(ring, 1.0f, last.node);
+      join<Sides>(vertex_ - 2 * (sides + 1), vertex_ - (sides + 1), sides);
       v_ = v;
       length = kTipLength * last.radius;
     }
-    const std::size_t ring = vertex_ - (sides + 1);
-    const Vec3f apex(last.position + along_ * length);
-    const auto v = static_cast<float>(v_ + length / (2.0 * std::numbers::pi * last.radius));
+    const auto ring = static_cast<std::uint32_t>(vertex_ - (sides + 1));
+    const Vec3f apex = last.position + frame_.along * length;
+    const float v = v_ + length / (2.0f * std::numbers::pi_v<float> * last.radius);
     // Between the sides, and half forwards unless the tip is as slim as its branch.
-    const Vec3 across = glm::cross(along_, side_);
-    const double share = tube_->is_pointed ? 1.0 : std::numbers::sqrt2 / 2.0;
-    const Vec3f forwards(along_ * (tube_->is_pointed ? 0.0 : share));
-    const Vec3f side_normal(side_ * share);
-    const Vec3f across_normal(across * share);
-    const Vec2f* middles = unit_circle(2 * sides) + 1;
+    const float share = tube_->is_pointed ? 1.0f : std::numbers::sqrt2_v<float> / 2.0f;
+    const Vec3f forwards = frame_.along * (tube_->is_pointed ? 0.0f : share);
+    const Vec3f side_normal = frame_.side * share;
+    const Vec3f across_normal = frame_.across * share;
+    const Vec2f* middles = middles_;
+    Vec3f* positions = mesh_.positions.data() + vertex_;
+    Vec3f* normals = mesh_.normals.data() + vertex_;
+    Vec2f* uvs = mesh_.uvs.data() + vertex_;
+    std::uint32_t* internodes = mesh_.internodes.data() + vertex_;
+    std::array<std::uint32_t, 3>* triangles = mesh_.triangles.data() + triangle_;
     for (std::uint32_t i = 0; i < sides; ++i) {
-      add_triangle(ring + i, ring + i + 1, vertex_);
-      mesh_.positions[vertex_] = apex;
-      mesh_.normals[vertex_] = forwards + side_normal * middles[2 * i].x + across_normal * middles[2 * i].y;
-      mesh_.uvs[vertex_] = {(static_cast<float>(i) + 0.5f) / static_cast<float>(sides), v};
-      mesh_.internodes[vertex_++] = last.node;
+      triangles[i] = {ring + i, ring + i + 1, ring + sides + 1 + i};
+      positions[i] = apex;
+      normals[i] = forwards + side_normal * middles[2 * i].x + across_normal * middles[2 * i].y;
+      uvs[i] = {(static_cast<float>(i) + 0.5f) / static_cast<float>(sides), v};
+      internodes[i] = last.node;
     }
+    vertex_ += sides;
+    triangle_ += sides;
   }
 
   /// Closes a trunk's base with a fan that faces down.
@@ -255,12 +326,12 @@ class TubeWriter {
     const std::uint32_t sides = tube_->sides * (tube_->flare_rings > 0 ? 2 : 1);
     const std::size_t ring = tube_->first_vertex;
     const std::size_t center = vertex_;
-    const Vec3 down = -knots_[0].along;
+    const Vec3f down = -knots_[0].along;
     const std::uint32_t node = knots_[1].node;
-    set_vertex(vertex_++, knots_[0].position, down, 0.5, 0.0, node);
+    set_vertex(vertex_++, knots_[0].position, down, 0.5f, 0.0f, node);
     for (std::uint32_t i = 0; i < sides; ++i) {
       const Vec2f uv = mesh_.uvs[ring + i];
-      set_vertex(vertex_++, Vec3(mesh_.positions[ring + i]), down, uv.x, uv.y, node);
+      set_vertex(vertex_++, mesh_.positions[ring + i], down, uv.x, uv.y, node);
       add_triangle(center, center + 1 + (i + 1) % sides, center + 1 + i);
     }
   }
@@ -271,20 +342,21 @@ class TubeWriter {
   std::vector<Knot> knots_;  // scratch, like the two below
   std::vector<LinePoint> points_;
   RootFlare flare_;
+  const Vec2f* circle_ = nullptr;
+  const Vec2f* middles_ = nullptr;
   std::size_t vertex_ = 0;  // the next one
   std::size_t triangle_ = 0;
-  Vec3 along_ = kUp;  // of the last ring
-  Vec3 side_ = kUp;
-  double v_ = 0.0;
-  double from_base_ = 0.0;
+  Frame frame_;  // of the last ring
+  float v_ = 0.0f;
+  float from_base_ = 0.0f;
 };
 
-Mesh mesh_of(const TubePlan& plan) {
-  Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count);
+Mesh mesh_of(const TubePlan& plan, Mesh memory) {
+  Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count, std::move(memory));
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     TubeWriter writer(plan, mesh);
     for (std::size_t i = begin; i < end; ++i) {
-      if (plan.tubes[i].rings > 0) writer.write(plan.tubes[i]);
+      if (plan.tubes[i].rings > 0) writer.write(i);
     }
   });
   return mesh;
@@ -292,19 +364,22 @@ Mesh mesh_of(const TubePlan& plan) {
 
 }  // namespace
 
-Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options) {
+Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh memory) {
   if (skeleton.internode_count() == 0) return {};
-  const TubePlan plan = plan_tubes(skeleton, options);
+  const Axes axes = find_axes(skeleton);
+  const TubePlan plan = plan_tubes(skeleton, axes, options);
   const std::size_t budget = triangle_budget(plan.triangle_count, options);
-  if (plan.triangle_count <= budget) return mesh_of(plan);
+  if (plan.triangle_count <= budget) return mesh_of(plan, std::move(memory));
   const auto count = [&](double tolerance) {
-    return plan_tubes(skeleton, options, tolerance).triangle_count;
+    return plan_tubes(skeleton, axes, options, tolerance).triangle_count;
   };
-  return smooth_mesh(skeleton, options, least_tolerance(skeleton, budget, count));
+  const double tolerance = least_tolerance(skeleton, budget, count);
+  return mesh_of(plan_tubes(skeleton, axes, options, tolerance), std::move(memory));
 }
 
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, double tolerance) {
-  return mesh_of(plan_tubes(skeleton, options, tolerance));
+  const Axes axes = find_axes(skeleton);
+  return mesh_of(plan_tubes(skeleton, axes, options, tolerance), {});
 }
 
 }  // namespace ramify

@@ -13,7 +13,8 @@ namespace ramify {
 /// twigs; a trunk's foot flares and is closed flat, tips are rounded or, on twigs, pointed. A collar is its
 /// lateral's. A skeleton without internodes gives an empty mesh. O(n), on all threads; no more than the mesh
 /// itself and a few bytes a node are held. Throws InputError where the budget of triangles is too small.
-Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options);
+/// `memory` is a mesh that is no longer needed and whose memory may be used again.
+Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh memory = {});
 
 /// The same with a tolerance of one's own: no wood is farther than five times as far from the mesh, metres.
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, double tolerance);

@@ -14,9 +14,9 @@ double total_area(const LeafModel& model, const std::vector<Leaf>& leaves) {
 
 }  // namespace
 
-TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed) {
+TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed, Mesh memory) {
   TreeMesh tree;
-  tree.mesh = build_mesh(skeleton, looks.mesher);
+  tree.mesh = build_mesh(skeleton, looks.mesher, std::move(memory));
   if (looks.mesher.color_by.empty()) {  // else its colours are to be read, and bark would change them
     dress_in_bark(tree.mesh, skeleton, looks.bark);
     compute_tangents(tree.mesh);

@@ -24,7 +24,7 @@ struct TreeMesh {
 
 /// Wood first, then leaves. Wood that shows an attribute has no bark over it. `seed` is the tree's: leaves
 /// are as random as it. Throws InputError for images and leaf meshes that cannot be used and RunError for too
-/// many leaves.
-TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed);
+/// many leaves. `memory` as for build_mesh().
+TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed, Mesh memory = {});
 
 }  // namespace ramify

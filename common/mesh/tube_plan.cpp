@@ -11,23 +11,23 @@ namespace {
 
 // Knots nearer than this, in diameters, would make rings that cut into each other where thick wood bends in
 // short internodes; nodes between stay well inside the wood.
-constexpr double kKnotSpacing = 0.75;
+constexpr float kKnotSpacing = 0.75f;
 
 // From ring to ring a line turns by no more: at coarse levels twice that.
-constexpr double kTurnMax = radians(18.0);
+constexpr auto kTurnMax = static_cast<float>(radians(18.0));
 
 // A straightened line looks back at no more knots than these.
 constexpr std::size_t kLookBack = 64;
 
 // A trunk that leans more than this, as a cosine, has no foot that stands on the ground.
-constexpr double kLeastUpright = 0.3;
+constexpr float kLeastUpright = 0.3f;
 
 // Of the thickest wood: thinner twigs, which have three sides, just begin inside their parents. They are most
 // of a tree, and a collar takes as long as the rest of a twig.
-constexpr double kLeastCollar = 0.03;
+constexpr float kLeastCollar = 0.03f;
 
 // In radii of a lateral: its first knot is so far outside its parent, so that its collar has room.
-constexpr double kClear = 1.2;
+constexpr float kClear = 1.2f;
 
 // A collar begins by so much inside the facets of the parent.
 constexpr double kWithinFacets = 0.97;
@@ -38,66 +38,42 @@ std::uint8_t collar_stretches(std::uint32_t sides) {
   return static_cast<std::uint8_t>(sides <= 3 ? 1 : sides <= 5 ? 2 : sides <= 8 ? 3 : 5);
 }
 
-/// Chains the internodes of each axis and lists the tubes, parents before their laterals.
-void find_axes(TubePlan& plan) {
-  const Skeleton& skeleton = *plan.skeleton;
-  const std::size_t roots = skeleton.root_count();
-  plan.continuation.assign(skeleton.node_count(), kNoParent);
-  const std::vector<bool> is_kept = kept_axes(skeleton, plan.tolerance);
-  std::vector<std::uint32_t> tube_of(skeleton.node_count(), kNoParent);
-  for (std::size_t i = roots; i < skeleton.node_count(); ++i) {
-    const auto node = static_cast<std::uint32_t>(i);
-    const std::uint32_t parent = skeleton.parent[node];
-    const bool goes_on =
-        skeleton.axis[node] == skeleton.axis[parent] && plan.continuation[parent] == kNoParent;
-    if (goes_on) plan.continuation[parent] = node;
-    if (goes_on && parent >= roots) {
-      tube_of[node] = tube_of[parent];
-      continue;
-    }
-    if (!is_kept[node]) continue;
-    tube_of[node] = static_cast<std::uint32_t>(plan.tubes.size());
-    plan.tubes.push_back({.base = parent, .first = node, .parent = tube_of[parent]});
-  }
-  for (Tube& tube : plan.tubes) {
-    if (tube.base >= roots) continue;
-    const std::uint32_t trunk = plan.continuation[tube.base];
-    tube.is_closed = trunk == kNoParent || trunk == tube.first;
-    if (!tube.is_closed) tube.parent = tube_of[trunk];
-  }
-}
-
 /// Trunks that stand on the ground with a foot of their own: those without real roots.
-void find_flares(TubePlan& plan) {
-  const Skeleton& skeleton = *plan.skeleton;
+void find_flares(TubePlan& plan, const Skeleton& skeleton) {
   if (plan.flare <= 0.0) return;
+  const Axes& axes = *plan.axes;
   const std::size_t roots = skeleton.root_count();
   std::vector<bool> has_roots(roots, false);
-  for (std::size_t node = roots; node < skeleton.node_count(); ++node) {
-    const std::uint32_t parent = skeleton.parent[node];
-    if (parent < roots && skeleton.kind[node] == Kind::root) has_roots[parent] = true;
+  const auto first_node = [&](const Axis& axis) { return axes.points[axis.first + 1].node; };
+  const auto base_node = [&](const Axis& axis) { return axes.points[axis.first].node; };
+  for (const Axis& axis : axes.list) {
+    const bool is_real_root = skeleton.kind[first_node(axis)] == Kind::root;
+    if (is_real_root && base_node(axis) < roots) has_roots[base_node(axis)] = true;
   }
-  for (Tube& tube : plan.tubes) {
-    tube.has_flare = tube.base < roots && tube.is_closed && tube.first == plan.continuation[tube.base] &&
-                     !has_roots[tube.base] && plan.flare * plan.radius(tube.base) > plan.tolerance;
+  for (std::size_t i = 0; i < axes.list.size(); ++i) {
+    const Axis& axis = axes.list[i];
+    if (!axis.is_trunk()) continue;
+    const std::uint32_t base = base_node(axis);
+    plan.tubes[i].has_flare = skeleton.axis[first_node(axis)] == skeleton.axis[base] && !has_roots[base] &&
+                              plan.flare * axes.points[axis.first].radius > plan.tolerance;
   }
 }
 
 /// Whether all knots after `from` are within `tolerance` of the straight stretch from it to `to`.
-bool is_straight(std::span<const Knot> between, const Knot& from, const Knot& to, double tolerance) {
-  const Vec3 step = to.position - from.position;
-  const double length2 = std::max(glm::dot(step, step), 1e-24);
+bool is_straight(std::span<const Knot> between, const Knot& from, const Knot& to, float tolerance) {
+  const Vec3f step = to.position - from.position;
+  const float length2 = std::max(glm::dot(step, step), 1e-24f);
   for (const Knot& knot : between) {
-    const double t = std::clamp(glm::dot(knot.position - from.position, step) / length2, 0.0, 1.0);
-    const double apart = glm::length(knot.position - (from.position + step * t)) +
-                         std::abs(knot.radius - glm::mix(from.radius, to.radius, t));
+    const float t = std::clamp(glm::dot(knot.position - from.position, step) / length2, 0.0f, 1.0f);
+    const float apart = glm::length(knot.position - (from.position + step * t)) +
+                        std::abs(knot.radius - glm::mix(from.radius, to.radius, t));
     if (apart > tolerance) return false;
   }
   return true;
 }
 
 /// Leaves out knots so that the line stays within `tolerance` of the one given.
-void straighten(std::vector<Knot>& knots, double tolerance) {
+void straighten(std::vector<Knot>& knots, float tolerance) {
   std::size_t kept = 0;  // knots[kept] is the last that stays
   std::size_t from = 0;  // where it stood
   std::vector<Knot>& line = knots;
@@ -118,103 +94,110 @@ void straighten(std::vector<Knot>& knots, double tolerance) {
 class Planner {
  public:
   Planner(TubePlan& plan, const MesherOptions& options)
-      : plan_(plan), skeleton_(*plan.skeleton), options_(options) {
-    greatest_ = *std::max_element(skeleton_.diameter.begin(), skeleton_.diameter.end());
-  }
+      : plan_(plan),
+        axes_(*plan.axes),
+        options_(options),
+        tolerance_(static_cast<float>(plan.tolerance)),
+        turn_max_(plan.tolerance > 0.0 ? 2.0f * kTurnMax : kTurnMax),
+        seen_(std::max(2.0f * tolerance_, kLeastCollar * axes_.thickest)) {}
 
-  /// Chooses a tube's knots, sides and rings. `knots` and `points` are scratch.
-  void plan(Tube& tube, std::vector<Knot>& knots, std::vector<LinePoint>& points) {
-    tube.sides = sides(tube);
-    choose_knots(tube, knots);
-    if (knots.back().length <= plan_.thinnest && knots.size() == 2) return;  // a point
-    const double radius = plan_.radius(tube.first);
-    const double seen = std::max(2.0 * plan_.tolerance, 0.5 * kLeastCollar * greatest_);
-    const bool is_seen = radius > seen;
-    if (!tube.is_closed && is_seen && knots[1].length > plan_.radius(tube.base) + 0.5 * radius) {
+  /// Chooses a tube's points, sides and rings.
+  void plan(std::size_t index) {
+    Tube& tube = plan_.tubes[index];
+    const Axis& axis = axes_.list[index];
+    tube.is_closed = axis.is_trunk();
+    tube.sides = sides(axis);
+    choose_knots(axis);
+    if (knots_.back().length <= axes_.thinnest && knots_.size() == 2) return;  // a point
+    const float radius = axes_.points[axis.first + 1].radius;
+    if (!tube.is_closed && radius > seen_ && knots_[1].length > axis.bearer_radius + 0.5f * radius) {
       tube.collar = collar_stretches(tube.sides);
-      knots[1].room *= kRoomBesideCollar;
+      knots_[1].room *= kRoomBesideCollar;
     }
-    const double turn_max = plan_.tolerance > 0.0 ? 2.0 * kTurnMax : kTurnMax;
-    count_rings(knots, plan_.line, turn_max, 0.5 * plan_.tolerance);
+    count_rings(knots_, plan_.line, turn_max_, 0.5f * tolerance_);
     std::size_t rings = 1;
-    for (std::size_t i = 1; i < knots.size(); ++i) {
-      plan_.rings[knots[i].node] = static_cast<std::uint8_t>(knots[i].rings);
-      rings += knots[i].rings;
+    for (std::size_t i = 1; i < knots_.size(); ++i) {
+      plan_.rings[knots_[i].point] = static_cast<std::uint8_t>(knots_[i].rings);
+      rings += knots_[i].rings;
     }
-    tube.is_pointed = plan_.tolerance > 0.0 && tube.sides == 3 && knots.back().radius < plan_.tolerance;
-    tube.has_flare = tube.has_flare && knots[0].along.y > kLeastUpright;
+    tube.is_pointed = tolerance_ > 0.0f && tube.sides == 3 && knots_.back().radius < tolerance_;
+    tube.has_flare = tube.has_flare && knots_[0].along.y > kLeastUpright;
     if (tube.has_flare) {
-      points.clear();
-      const RootFlare flare = trace_tube(plan_, tube, knots, points);
-      tube.flare_rings = rings_below(points, flare.height);
-      rings = points.size();
+      points_.clear();
+      const RootFlare flare = trace_tube(plan_, tube, knots_, points_);
+      tube.flare_rings = rings_below(points_, flare.height);
+      rings = points_.size();
     }
     tube.rings = static_cast<std::uint32_t>(rings) + tube.collar + (tube.has_round_tip() ? 1 : 0) -
                  (tube.is_pointed ? 1 : 0);
   }
 
  private:
-  std::uint16_t sides(const Tube& tube) const {
-    const double diameter = skeleton_.diameter[tube.first];
-    const std::uint32_t wanted = side_count(diameter, greatest_, options_);
-    return static_cast<std::uint16_t>(sides_within(wanted, 0.5 * diameter, plan_.tolerance));
+  std::uint16_t sides(const Axis& axis) const {
+    const float radius = axes_.points[axis.first + 1].radius;
+    const std::uint32_t wanted = side_count(radius, axes_.thickest, options_);
+    return static_cast<std::uint16_t>(sides_within(wanted, radius, plan_.tolerance));
   }
 
-  Knot knot_at(std::uint32_t node) const {
-    return {.position = skeleton_.position[node], .radius = plan_.radius(node), .node = node};
-  }
-
-  void choose_knots(const Tube& tube, std::vector<Knot>& knots) const {
-    knots.clear();
-    knots.push_back(knot_at(tube.base));
-    if (!tube.is_closed) knots[0].radius = plan_.radius(tube.first);
-    for (std::uint32_t node = tube.first; node != kNoParent; node = plan_.continuation[node]) {
-      Knot knot = knot_at(node);
-      const bool is_tip = plan_.continuation[node] == kNoParent;
-      const double apart = glm::length(knot.position - knots.back().position);
-      const bool is_crowded = apart < std::max(2.0 * kKnotSpacing * knot.radius, plan_.thinnest);
-      const bool is_inside = knots.size() == 1 && !tube.is_closed && is_buried(tube.base, knot);
+  void choose_knots(const Axis& axis) {
+    knots_.clear();
+    append_knot(knots_, axes_, axis.first);
+    for (std::uint32_t i = axis.first + 1; i < axis.end(); ++i) {
+      append_knot(knots_, axes_, i);
+      const Knot& knot = knots_.back();
+      const bool is_tip = i + 1 == axis.end();
+      const bool is_first = knots_.size() == 2;
+      const bool is_crowded = knot.length < std::max(2.0f * kKnotSpacing * knot.radius, axes_.thinnest);
       if (is_tip) {
-        if (is_crowded && knots.size() > 1) knots.pop_back();
-        knots.push_back(knot);
-      } else if (!is_crowded && !is_inside) {
-        knots.push_back(knot);
+        if (is_crowded && !is_first) drop_last_but_one();
+      } else if (is_crowded || (is_first && !axis.is_trunk() && is_buried(axis, knot))) {
+        knots_.pop_back();
       }
     }
-    if (plan_.tolerance > 0.0) straighten(knots, 0.5 * plan_.tolerance);
-    measure(knots);
+    if (tolerance_ <= 0.0f) return;
+    straighten(knots_, 0.5f * tolerance_);
+    measure(knots_);
   }
 
-  /// Whether a lateral's knot still lies in the wood of the parent, about which the lateral begins.
-  bool is_buried(std::uint32_t base, const Knot& knot) const {
-    const double radius = plan_.radius(base);
-    const double edge = radius + kClear * knot.radius;
-    const Vec3 offset = knot.position - skeleton_.position[base];
-    const double distance2 = glm::dot(offset, offset);
-    if (distance2 < edge * edge) return true;
-    if (distance2 > 9.0 * radius * radius) return false;
-    const std::uint32_t next = plan_.continuation[base];
-    const bool ends = next == kNoParent;
-    if (ends && skeleton_.is_root(base)) return false;
-    const Vec3 along = normalized_or(ends ? skeleton_.along(base) : skeleton_.along(next), kUp, 1e-12);
-    const double height = glm::dot(offset, along);
-    return !(ends && height > 0.0) && distance2 - height * height < edge * edge;
+  void drop_last_but_one() {
+    knots_[knots_.size() - 2] = knots_.back();
+    knots_.pop_back();
+    measure(knots_, knots_.size() - 1);
   }
 
-  static std::uint32_t rings_below(const std::vector<LinePoint>& points, double height) {
+  /// Whether a lateral's first knot still lies in the wood of its bearer, about which the lateral begins.
+  bool is_buried(const Axis& axis, const Knot& knot) const {
+    const float edge = axis.bearer_radius + kClear * knot.radius;
+    if (knot.length < edge) return true;
+    if (knot.length > 3.0f * axis.bearer_radius) return false;
+    // Along the bearer after the base, or before it where it ends.
+    const Axis& bearer = axes_.list[axis.bearer];
+    const bool ends = axis.base + 1 == bearer.end();
+    const std::uint32_t low = ends ? axis.base - 1 : axis.base;
+    const Vec3f step = axes_.points[low + 1].position - axes_.points[low].position;
+    const Vec3f along = normalized_or(step, Vec3f(kUp), 1e-12f);
+    const float height = knot.length * glm::dot(knot.along, along);
+    return !(ends && height > 0.0f) && knot.length * knot.length - height * height < edge * edge;
+  }
+
+  static std::uint8_t rings_below(const std::vector<LinePoint>& points, double height) {
     double from = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (i > 0) from += glm::length(points[i].position - points[i - 1].position);
+      if (i > 0) from += glm::distance(points[i].position, points[i - 1].position);
       // The last ring keeps the trunk's own sides, and the flare's end must not miss it by rounding.
-      if (from > 0.999 * height || i + 1 == points.size()) return static_cast<std::uint32_t>(i);
+      if (from > 0.999 * height || i + 1 == points.size()) return static_cast<std::uint8_t>(i);
     }
     return 0;
   }
 
   TubePlan& plan_;
-  const Skeleton& skeleton_;
+  const Axes& axes_;
   const MesherOptions& options_;
-  double greatest_ = 0.0;
+  const float tolerance_;
+  const float turn_max_;
+  const float seen_;         // thinner laterals have no collar
+  std::vector<Knot> knots_;  // scratch, as below
+  std::vector<LinePoint> points_;
 };
 
 // A ring repeats its first vertex at the end, where u jumps from 1 to 0. The tip has a vertex a side, a
@@ -234,21 +217,22 @@ std::size_t triangle_count(const Tube& tube) {
 
 }  // namespace
 
-TubePlan plan_tubes(const Skeleton& skeleton, const MesherOptions& options, double tolerance) {
+TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOptions& options,
+                    double tolerance) {
   TubePlan plan;
-  plan.skeleton = &skeleton;
+  plan.axes = &axes;
   plan.line = options.centre_line;
   plan.flare = options.root_flare;
   plan.tolerance = tolerance;
-  plan.thinnest = thinnest_radius(skeleton);
-  find_axes(plan);
-  find_flares(plan);
-  plan.rings.assign(skeleton.node_count(), 0);
-  Planner planner(plan, options);
+  plan.tubes.resize(axes.list.size());
+  plan.rings.assign(axes.points.size(), 0);
+  find_flares(plan, skeleton);
+  const std::vector<bool> is_kept = kept_axes(skeleton, tolerance);
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Knot> knots;
-    std::vector<LinePoint> points;
-    for (std::size_t i = begin; i < end; ++i) planner.plan(plan.tubes[i], knots, points);
+    Planner planner(plan, options);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_kept[axes.points[axes.list[i].first + 1].node]) planner.plan(i);
+    }
   });
   for (Tube& tube : plan.tubes) {
     tube.first_vertex = plan.vertex_count;
@@ -260,21 +244,16 @@ TubePlan plan_tubes(const Skeleton& skeleton, const MesherOptions& options, doub
   return plan;
 }
 
-void collect_knots(const TubePlan& plan, const Tube& tube, std::vector<Knot>& knots) {
-  const Skeleton& skeleton = *plan.skeleton;
+void collect_knots(const TubePlan& plan, std::size_t tube, std::vector<Knot>& knots) {
+  const Axis& axis = plan.axes->list[tube];
   knots.clear();
-  const std::uint32_t thick = tube.is_closed ? tube.base : tube.first;
-  knots.push_back(
-      {.position = skeleton.position[tube.base], .radius = plan.radius(thick), .node = tube.base});
-  for (std::uint32_t node = tube.first; node != kNoParent; node = plan.continuation[node]) {
-    if (plan.rings[node] == 0) continue;
-    knots.push_back({.position = skeleton.position[node],
-                     .radius = plan.radius(node),
-                     .node = node,
-                     .rings = plan.rings[node]});
+  append_knot(knots, *plan.axes, axis.first);
+  for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point) {
+    if (plan.rings[point] == 0) continue;
+    append_knot(knots, *plan.axes, point);
+    knots.back().rings = plan.rings[point];
   }
-  measure(knots);
-  if (tube.collar > 0) knots[1].room *= kRoomBesideCollar;
+  if (plan.tubes[tube].collar > 0) knots[1].room *= kRoomBesideCollar;
 }
 
 RootFlare trace_tube(const TubePlan& plan, const Tube& tube, const std::vector<Knot>& knots,
@@ -288,41 +267,42 @@ RootFlare trace_tube(const TubePlan& plan, const Tube& tube, const std::vector<K
   return flare;
 }
 
-Fork fork_at(const TubePlan& plan, const Tube& lateral) {
-  const Skeleton& skeleton = *plan.skeleton;
-  const std::uint32_t node = lateral.base;
+Fork fork_at(const TubePlan& plan, std::size_t lateral) {
+  const Axes& axes = *plan.axes;
+  const std::uint32_t base = axes.list[lateral].base;
+  const Axis& bearer = axes.list[axes.list[lateral].bearer];
+  const Tube& tube = plan.tubes[axes.list[lateral].bearer];
+  const auto position = [&](std::uint32_t point) { return Vec3(axes.points[point].position); };
+  const auto radius = [&](std::uint32_t point) { return double{axes.points[point].radius}; };
   Fork fork;
-  fork.center = skeleton.position[node];
-  fork.radius = plan.radius(node);
-  if (lateral.parent == kNoParent) return fork;
+  fork.center = position(base);
+  fork.radius = radius(base);
 
-  // The parent's knots around the node: it may have been left out itself.
-  const Tube& tube = plan.tubes[lateral.parent];
-  const bool is_base = node == tube.base;
-  std::uint32_t below = node;
-  while (below != tube.base && (below == node || plan.rings[below] == 0)) below = skeleton.parent[below];
-  std::uint32_t above = is_base ? tube.first : plan.continuation[node];
-  while (above != kNoParent && plan.rings[above] == 0) above = plan.continuation[above];
-  const bool is_knot = is_base || plan.rings[node] > 0;
-  const bool is_lateral_base = below == tube.base && !tube.is_closed;
-  const double radius_below = plan.radius(is_lateral_base ? tube.first : below);
+  // The bearer's knots around the point: it may have been left out itself.
+  const bool is_base = base == bearer.first;
+  std::uint32_t below = base;
+  while (below != bearer.first && (below == base || plan.rings[below] == 0)) --below;
+  std::uint32_t above = base + 1;
+  while (above != bearer.end() && plan.rings[above] == 0) ++above;
+  const bool ends = above == bearer.end();
+  const bool is_knot = is_base || plan.rings[base] > 0;
   const double inscribed = std::cos(std::numbers::pi / tube.sides);
   fork.inset = kWithinFacets * inscribed;
 
-  if (!is_knot && above != kNoParent) {  // on the straight stretch between two knots
-    const Vec3 from = skeleton.position[below];
-    const Vec3 step = skeleton.position[above] - from;
+  if (!is_knot && !ends) {  // on the straight stretch between two knots
+    const Vec3 from = position(below);
+    const Vec3 step = position(above) - from;
     const double length2 = std::max(glm::dot(step, step), 1e-24);
     const double t = std::clamp(glm::dot(fork.center - from, step) / length2, 0.0, 1.0);
     fork.center = from + step * t;
     fork.along = fork.run = normalized_or(step, kUp, 1e-12);
-    fork.radius = glm::mix(radius_below, plan.radius(above), t);
-    fork.widening_above = fork.widening_below = (plan.radius(above) - radius_below) / std::sqrt(length2);
+    fork.radius = glm::mix(radius(below), radius(above), t);
+    fork.widening_above = fork.widening_below = (radius(above) - radius(below)) / std::sqrt(length2);
     return fork;
   }
-  const Vec3 before = skeleton.position[node] - skeleton.position[below];
+  const Vec3 before = position(base) - position(below);
   const double length_before = glm::length(before);
-  const Vec3 after = above != kNoParent ? skeleton.position[above] - skeleton.position[node] : Vec3(0.0);
+  const Vec3 after = ends ? Vec3(0.0) : position(above) - position(base);
   const double length_after = glm::length(after);
   const Vec3 into = normalized_or(before, normalized_or(after, kUp, 1e-12), 1e-12);
   const Vec3 out = normalized_or(after, into, 1e-12);
@@ -330,12 +310,14 @@ Fork fork_at(const TubePlan& plan, const Tube& lateral) {
   fork.bend = out - into;
   fork.along = normalized_or(fork.run, into);
   fork.is_ground = is_base;
-  if (length_before > 0.0) fork.widening_below = (fork.radius - radius_below) / length_before;
-  // A parent that ends here closes in a tip of about its own width.
-  fork.widening_above = length_after > 0.0 ? (plan.radius(above) - fork.radius) / length_after : -0.7;
-  if (plan.line == CentreLine::polyline && plan.rings[node] > 1) {
-    const double room = is_lateral_base && tube.collar > 0 ? kRoomBesideCollar : 1.0;
-    fork.reach = bend_reach(fork.radius, room * length_before, length_after);
+  if (length_before > 0.0) fork.widening_below = (fork.radius - radius(below)) / length_before;
+  // A bearer that ends here closes in a tip of about its own width.
+  fork.widening_above = length_after > 0.0 ? (radius(above) - fork.radius) / length_after : -0.7;
+  if (plan.line == CentreLine::polyline && plan.rings[base] > 1) {
+    const bool is_beside_collar = below == bearer.first && tube.collar > 0;
+    const double room = is_beside_collar ? kRoomBesideCollar : 1.0;
+    fork.reach = bend_reach(static_cast<float>(fork.radius), static_cast<float>(room * length_before),
+                            static_cast<float>(length_after));
     fork.center += fork.bend * (0.25 * fork.reach);
   } else if (plan.line == CentreLine::catmull_rom) {
     fork.reach = std::min(length_before, length_after);

@@ -1,11 +1,12 @@
-// What a mesh of tubes is made of, before anything of it is written: the axes of a skeleton, which of their
-// nodes are kept, how many sides and rings each tube has and where it goes in the mesh.
+// What a mesh of tubes is made of, before anything of it is written: which points of the axes are kept, how
+// many sides and rings each tube has and where it goes in the mesh.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "common/base/bulk.h"
+#include "common/mesh/axes.h"
 #include "common/mesh/centre_line.h"
 #include "common/mesh/collar.h"
 #include "common/mesh/mesher.h"
@@ -15,20 +16,17 @@
 namespace ramify {
 
 // The part of a lateral's first stretch that its first bend may count on: the collar takes the rest.
-constexpr double kRoomBesideCollar = 0.5;
+constexpr float kRoomBesideCollar = 0.5f;
 
-/// An axis: its nodes follow from `first` by TubePlan::continuation. Without rings it is left out.
+/// The tube of an axis.
 struct Tube {
-  std::uint32_t base = 0;  // the node that its first internode grows from
-  std::uint32_t first = 0;
-  std::uint32_t parent = kNoParent;  // the tube that bears it; none for a trunk
-  std::uint32_t rings = 0;           // of vertices, the collar's among them
+  std::uint32_t rings = 0;  // of vertices, the collar's among them; without rings it is left out
   std::uint16_t sides = 0;
-  std::uint8_t collar = 0;  // stretches that the collar's curve is parted into; 0: no collar
-  bool is_closed = false;   // begins at a root node: its base is seen
+  std::uint8_t collar = 0;       // stretches that the collar's curve is parted into; 0: no collar
+  std::uint8_t flare_rings = 0;  // of twice as many sides
+  bool is_closed = false;        // a trunk: its base is seen
   bool has_flare = false;
-  bool is_pointed = false;        // ends in a point at its last node; else in a tip beyond it
-  std::uint32_t flare_rings = 0;  // of twice as many sides
+  bool is_pointed = false;  // ends in a point at its last node; else in a tip beyond it
   std::size_t first_vertex = 0;
   std::size_t first_triangle = 0;
 
@@ -36,30 +34,28 @@ struct Tube {
 };
 
 struct TubePlan {
-  const Skeleton* skeleton = nullptr;
+  const Axes* axes = nullptr;
   CentreLine line = CentreLine::polyline;
   double flare = 0.0;
-  double tolerance = 0.0;                   // metres
-  double thinnest = 0.0;                    // radius, metres
-  std::vector<std::uint32_t> continuation;  // of a node: the next of its axis, or kNoParent
-  std::vector<std::uint8_t> rings;          // of a node on its own tube; 0: left out
-  std::vector<Tube> tubes;
+  double tolerance = 0.0;          // metres
+  BulkVector<std::uint8_t> rings;  // of each point on its axis' line; 0: left out
+  std::vector<Tube> tubes;         // of each axis
   std::size_t vertex_count = 0;
   std::size_t triangle_count = 0;
-
-  double radius(std::size_t node) const { return std::max(0.5 * skeleton->diameter[node], thinnest); }
 };
 
 /// With a tolerance, metres, axes whose subtrees reach no farther are left out, lines are straightened by no
 /// more than half of it and tubes have fewer sides; collars, arcs and the flare go where they are of its
-/// size. Without one nothing goes but nodes that crowd. O(n), on all threads.
-TubePlan plan_tubes(const Skeleton& skeleton, const MesherOptions& options, double tolerance = 0.0);
+/// size. Without one nothing goes but nodes that crowd. O(n), on all threads. The axes are the skeleton's and
+/// must outlive the plan.
+TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOptions& options,
+                    double tolerance = 0.0);
 
-/// The knots of a tube that is not left out, measured; a lateral's begin at its parent's node.
-void collect_knots(const TubePlan& plan, const Tube& tube, std::vector<Knot>& knots);
+/// The knots of a tube that is not left out, measured; a lateral's begin at its bearer's point.
+void collect_knots(const TubePlan& plan, std::size_t tube, std::vector<Knot>& knots);
 
-/// The parent's wood where a lateral leaves it.
-Fork fork_at(const TubePlan& plan, const Tube& lateral);
+/// The bearer's wood where a lateral leaves it.
+Fork fork_at(const TubePlan& plan, std::size_t tube);
 
 /// The points of a tube's line, and the flare at its foot.
 RootFlare trace_tube(const TubePlan& plan, const Tube& tube, const std::vector<Knot>& knots,

@@ -8,8 +8,8 @@
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
 #include "common/mesh/closed_surface.h"
-#include "common/mesh/simplify_closed.h"
 #include "common/mesh/thin_tubes.h"
+#include "common/mesh/touched_leaves.h"
 #include "common/mesh/wood.h"
 #include "common/mesh/wood_field.h"
 
@@ -193,8 +193,8 @@ WatertightPlan plan_watertight(const Skeleton& skeleton, const MesherOptions& op
 Mesh watertight_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   if (skeleton.internode_count() == 0) return {};
   const WatertightPlan plan = plan_watertight(skeleton, options);
-  ClosedSurface surface = closed_surface(wood_field(skeleton, plan.is_kept, options.blend), plan.voxel_size);
-  if (options.adaptivity > 0.0) simplify_closed(surface, options.adaptivity * plan.voxel_size);
+  ClosedSurface surface = closed_surface(wood_field(skeleton, plan.is_kept, options.blend), plan.voxel_size,
+                                         options.adaptivity * plan.voxel_size);
   Mesh mesh = mesh_of(skeleton, std::move(surface));
 
   std::string fate = "left out";

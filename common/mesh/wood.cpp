@@ -21,8 +21,8 @@ Material bark_material() {
 
 }  // namespace
 
-Mesh wood_of_size(std::size_t vertices, std::size_t triangles) {
-  Mesh mesh;
+Mesh wood_of_size(std::size_t vertices, std::size_t triangles, Mesh memory) {
+  Mesh mesh = emptied(std::move(memory));
   mesh.positions.resize(vertices);
   mesh.normals.resize(vertices);
   mesh.uvs.resize(vertices);
@@ -40,7 +40,7 @@ void finish_wood(Mesh& mesh) {
 
 std::uint32_t side_count(double diameter, double greatest, const MesherOptions& options) {
   const double share = greatest > 0 ? std::sqrt(diameter / greatest) : 1.0;
-  const int sides = static_cast<int>(std::lround(options.sides_max * share));
+  const int sides = static_cast<int>(options.sides_max * share + 0.5);
   return static_cast<std::uint32_t>(std::clamp(sides, options.sides_min, options.sides_max));
 }
 

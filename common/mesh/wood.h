@@ -11,8 +11,8 @@
 namespace ramify {
 
 /// A mesh with room for so many vertices and triangles of bark, to be filled in place; without triangles it
-/// has no material.
-Mesh wood_of_size(std::size_t vertices, std::size_t triangles);
+/// has no material. Nothing of `memory` stays but its memory.
+Mesh wood_of_size(std::size_t vertices, std::size_t triangles, Mesh memory = {});
 
 /// Makes all triangles bark; a mesh without triangles stays without material.
 void finish_wood(Mesh& mesh);

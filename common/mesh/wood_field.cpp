@@ -11,20 +11,8 @@ namespace {
 // fork is that far from its node.
 constexpr double kZone = 2.5;
 
-// Of a zone's radius: from here on the blend fades.
-constexpr double kFade = 0.5;
-
 // Cosine of the angle to the stem up to which what starts at a root stands.
 constexpr double kStanding = 0.5;
-
-Distance nearest(std::span<const RoundCone> cones, std::span<const std::uint32_t> chosen, const Vec3& point) {
-  Distance least{std::numeric_limits<double>::infinity(), kUp};
-  for (const std::uint32_t index : chosen) {
-    const Distance one = cones[index].distance(point);
-    if (one.value < least.value) least = one;
-  }
-  return least;
-}
 
 /// Who follows whom on an axis, and the laterals of each node, among the internodes kept.
 struct Branching {
@@ -65,16 +53,16 @@ class ForkFinder {
       : skeleton_(skeleton), branching_(branching), cone_of_(cone_of), blend_(blend) {}
 
   /// Each lateral of `node` with the axis it leaves, and with the other laterals.
-  void add_forks(std::uint32_t node, std::vector<Fork>& forks) const {
+  void add_forks(std::uint32_t node, std::vector<ForkBlend>& forks) const {
     const std::vector<std::uint32_t>& laterals = branching_.laterals[node];
     for (std::size_t i = 0; i < laterals.size(); ++i) {
       const double radius = skeleton_.start_radius(laterals[i]);
-      Fork fork = empty_fork(node, radius, 0.5 * skeleton_.diameter[node]);
+      ForkBlend fork = empty_fork(node, radius, 0.5 * skeleton_.diameter[node]);
       fork.cones = cones_upwards(laterals[i], fork);
       fork.others = cones_through(node, fork);
       if (!fork.others.empty()) forks.push_back(std::move(fork));
       for (std::size_t j = 0; j < i; ++j) {
-        Fork sides = empty_fork(node, radius, skeleton_.start_radius(laterals[j]));
+        ForkBlend sides = empty_fork(node, radius, skeleton_.start_radius(laterals[j]));
         sides.cones = cones_upwards(laterals[i], sides);
         sides.others = cones_upwards(laterals[j], sides);
         forks.push_back(std::move(sides));
@@ -83,19 +71,19 @@ class ForkFinder {
   }
 
  private:
-  Fork empty_fork(std::uint32_t node, double radius, double other_radius) const {
-    Fork fork;
+  ForkBlend empty_fork(std::uint32_t node, double radius, double other_radius) const {
+    ForkBlend fork;
     fork.center = skeleton_.position[node];
-    fork.blend = blend_ * std::min(radius, other_radius);
-    fork.zone = kZone * (std::max(radius, other_radius) + fork.blend);
+    fork.width = blend_ * std::min(radius, other_radius);
+    fork.zone = kZone * (std::max(radius, other_radius) + fork.width);
     return fork;
   }
 
-  bool is_near(std::uint32_t node, const Fork& fork) const {
+  bool is_near(std::uint32_t node, const ForkBlend& fork) const {
     return glm::length(skeleton_.position[node] - fork.center) < fork.zone + 0.5 * skeleton_.diameter[node];
   }
 
-  std::vector<std::uint32_t> cones_upwards(std::uint32_t first, const Fork& fork) const {
+  std::vector<std::uint32_t> cones_upwards(std::uint32_t first, const ForkBlend& fork) const {
     std::vector<std::uint32_t> result;
     for (std::uint32_t node = first; node != kNoParent; node = branching_.continuation[node]) {
       result.push_back(cone_of_[node]);
@@ -104,7 +92,7 @@ class ForkFinder {
     return result;
   }
 
-  std::vector<std::uint32_t> cones_through(std::uint32_t node, const Fork& fork) const {
+  std::vector<std::uint32_t> cones_through(std::uint32_t node, const ForkBlend& fork) const {
     std::vector<std::uint32_t> result = cones_upwards(branching_.continuation[node], fork);
     for (std::uint32_t below = node; !skeleton_.is_root(below); below = skeleton_.parent[below]) {
       result.push_back(cone_of_[below]);
@@ -122,75 +110,37 @@ class ForkFinder {
 
 }  // namespace
 
-RoundCone::RoundCone(const Vec3& base, double base_radius, const Vec3& tip, double tip_radius,
-                     const Vec3& cut, std::uint32_t internode)
-    : base_(base),
-      base_radius_(base_radius),
-      tip_radius_(tip_radius),
-      cut_(cut),
-      cut_at_(base),
-      internode_(internode) {
-  bounds_.include(base - base_radius);
-  bounds_.include(base + base_radius);
-  bounds_.include(tip - tip_radius);
-  bounds_.include(tip + tip_radius);
+RoundCone round_cone(const Vec3& base, double base_radius, const Vec3& tip, double tip_radius) {
+  RoundCone cone{.base = base, .cut_at = base, .bounds = {}};
+  cone.base_radius = base_radius;
+  for (const double sign : {-1.0, 1.0}) {
+    cone.bounds.include(base + sign * base_radius);
+    cone.bounds.include(tip + sign * tip_radius);
+  }
   const double length = glm::length(tip - base);
   const double narrowing = base_radius - tip_radius;
-  // Where one ball holds the other there is nothing but the larger.
   if (length <= std::abs(narrowing) * (1.0 + 1e-9) || length == 0.0) {
     if (narrowing < 0.0) {
-      base_ = tip;
-      base_radius_ = tip_radius;
+      cone.base = tip;
+      cone.base_radius = tip_radius;
     }
-    return;
+    return cone;
   }
-  length_ = length;
-  along_ = (tip - base) / length;
-  sine_ = narrowing / length;
-  cosine_ = std::sqrt(1.0 - sine_ * sine_);
+  cone.length = length;
+  cone.along = (tip - base) / length;
+  cone.sine = narrowing / length;
+  cone.cosine = std::sqrt(1.0 - cone.sine * cone.sine);
+  return cone;
 }
 
-Distance RoundCone::distance(const Vec3& point) const {
-  const Vec3 apart = point - base_;
-  const auto to_ball = [](const Vec3& from_center, double radius) {
-    const double length = glm::length(from_center);
-    return Distance{length - radius, length > 1e-12 ? from_center / length : kUp};
-  };
-  if (length_ == 0.0) return to_ball(apart, base_radius_);
-
-  const double axial = glm::dot(apart, along_);
-  const Vec3 outwards = apart - along_ * axial;
-  const double radial = glm::length(outwards);
-  // How far along the line that touches both balls: before it the base's ball is nearest, past it the tip's.
-  const double touching = axial * cosine_ - radial * sine_;
-  Distance result;
-  if (touching < 0.0) {
-    result = to_ball(apart, base_radius_);
-  } else if (touching > length_ * cosine_) {
-    result = to_ball(apart - along_ * length_, tip_radius_);
-  } else {
-    const Vec3 side = radial > 1e-12 ? outwards / radial : any_perpendicular(along_);
-    result = {radial * cosine_ + axial * sine_ - base_radius_, side * cosine_ + along_ * sine_};
-  }
-  const double behind = glm::dot(cut_at_ - point, cut_);
-  if (cut_ != Vec3(0.0) && behind > result.value) return {behind, -cut_};
-  return result;
-}
-
-double WoodField::distance(const Fork& fork, const Vec3& point) const {
-  const Distance a = nearest(cones, fork.cones, point);
-  const Distance b = nearest(cones, fork.others, point);
-  const double least = std::min(a.value, b.value);
-  const double apart = std::abs(a.value - b.value);
-  if (apart >= fork.blend) return least;
-  // Surfaces that run alongside each other would bulge where they part: they meet at an angle or not at all.
-  const double angle = std::clamp(1.0 - glm::dot(a.gradient, b.gradient), 0.0, 1.0);
-  const double place = glm::length(point - fork.center) / fork.zone;
-  const double faded = std::clamp((1.0 - place) / (1.0 - kFade), 0.0, 1.0);
-  const double blend = fork.blend * angle * faded * faded * (3.0 - 2.0 * faded);
-  if (apart >= blend) return least;
-  const double overlap = blend - apart;
-  return least - 0.25 * overlap * overlap / blend;
+double RoundCone::distance(const Vec3& point) const {
+  const Vec3 apart = point - base;
+  const double axial = glm::dot(apart, along);
+  const double radial = glm::length(apart - along * axial);
+  // Of the balls along the axis the one that is nearest: no steeper than the line that touches them all.
+  const double at = std::clamp(axial - radial * sine / cosine, 0.0, length);
+  const double value = std::hypot(radial, axial - at) - base_radius + at * sine;
+  return cut == Vec3(0.0) ? value : std::max(value, glm::dot(cut_at - point, cut));
 }
 
 WoodField wood_field(const Skeleton& skeleton, const std::vector<bool>& is_kept, double blend) {
@@ -204,8 +154,11 @@ WoodField wood_field(const Skeleton& skeleton, const std::vector<bool>& is_kept,
     const std::uint32_t parent = skeleton.parent[node];
     const Vec3 cut = skeleton.is_root(parent) ? cut_at_root(skeleton, branching, node) : Vec3(0.0);
     cone_of[node] = static_cast<std::uint32_t>(field.cones.size());
-    field.cones.emplace_back(skeleton.position[parent], skeleton.start_radius(node), skeleton.position[node],
-                             0.5 * skeleton.diameter[node], cut, node);
+    RoundCone cone = round_cone(skeleton.position[parent], skeleton.start_radius(node),
+                                skeleton.position[node], 0.5 * skeleton.diameter[node]);
+    cone.cut = cut;
+    cone.internode = node;
+    field.cones.push_back(cone);
   }
   if (blend > 0.0) {
     const ForkFinder finder(skeleton, branching, cone_of, blend);

@@ -12,52 +12,42 @@
 
 namespace ramify {
 
-/// Metres to a surface, negative inside, and the unit vector in which it grows fastest.
-struct Distance {
-  double value = 0.0;
-  Vec3 gradient = kUp;
-};
-
 /// The hull of two balls.
-class RoundCone {
- public:
-  /// `cut`: what lies behind the plane through `base` with this normal is cut off; 0: nothing.
-  RoundCone(const Vec3& base, double base_radius, const Vec3& tip, double tip_radius, const Vec3& cut,
-            std::uint32_t internode);
+struct RoundCone {
+  Vec3 base{0.0};
+  Vec3 along = kUp;     // unit
+  double length = 0.0;  // metres; 0: a ball
+  double base_radius = 0.0;
+  double sine = 0.0;  // of half the opening angle, positive if it narrows
+  double cosine = 1.0;
+  Vec3 cut{0.0};  // what lies behind the plane through cut_at with this normal is cut off; 0: nothing
+  Vec3 cut_at{0.0};
+  Box bounds;
+  std::uint32_t internode = 0;  // the skeleton node it belongs to
 
-  Distance distance(const Vec3& point) const;
-  const Box& bounds() const { return bounds_; }
-  std::uint32_t internode() const { return internode_; }  // the skeleton node it belongs to
-
- private:
-  Vec3 base_;
-  Vec3 along_ = kUp;
-  double length_ = 0.0;  // 0: a ball
-  double base_radius_;
-  double tip_radius_;
-  double sine_ = 0.0;  // of half the cone's opening angle, positive if it narrows
-  double cosine_ = 1.0;
-  Vec3 cut_;
-  Vec3 cut_at_;
-  Box bounds_;
-  std::uint32_t internode_;
+  double distance(const Vec3& point) const;
 };
+
+/// Where one ball holds the other, that is all.
+RoundCone round_cone(const Vec3& base, double base_radius, const Vec3& tip, double tip_radius);
+
+/// How far a blend moves the surface at most, in parts of its width.
+inline constexpr double kBlendDepth = 0.25;
 
 /// A place where the cones of two axes blend.
-struct Fork {
+struct ForkBlend {
   Vec3 center{0.0};
   double zone = 0.0;                  // radius of the ball in which they do, metres
-  double blend = 0.0;                 // differences of distance below this are smoothed, metres
+  double width = 0.0;                 // differences of distance below this are smoothed, metres
   std::vector<std::uint32_t> cones;   // of the one axis near the fork
   std::vector<std::uint32_t> others;  // of the other
 };
 
+/// Distances to the wood's surface, metres, negative inside: the least of all cones', and less where forks
+/// blend. leaf_field.h says how they are computed.
 struct WoodField {
   std::vector<RoundCone> cones;
-  std::vector<Fork> forks;
-
-  /// The smooth union of both axes; never more than their union's distance.
-  double distance(const Fork& fork, const Vec3& point) const;
+  std::vector<ForkBlend> forks;
 };
 
 /// Of the internodes for which is_kept is true. `blend` is how wide forks blend, in radii of the lateral's

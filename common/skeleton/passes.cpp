@@ -131,6 +131,20 @@ Skeleton cut_at_level(const Skeleton& skeleton, std::uint32_t level) {
   return subset(skeleton, is_planned);
 }
 
+std::uint32_t last_step(const Skeleton& skeleton) {
+  std::uint32_t last = 0;
+  for (const std::vector<std::uint32_t>* steps : {&skeleton.birth_step, &skeleton.shed_step}) {
+    for (const std::uint32_t step : *steps) last = std::max(last, step);
+  }
+  if (!skeleton.birth_step.empty()) return last;
+  for (const std::uint16_t level : skeleton.level) last = std::max<std::uint32_t>(last, level);
+  return last;
+}
+
+Skeleton cut_at(const Skeleton& skeleton, std::uint32_t step) {
+  return skeleton.birth_step.empty() ? cut_at_level(skeleton, step) : cut_at_step(skeleton, step);
+}
+
 Skeleton living(const Skeleton& history) {
   if (history.shed_step.empty()) return history;
   std::vector<bool> is_alive(history.node_count());

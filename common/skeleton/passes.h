@@ -42,6 +42,13 @@ Skeleton cut_at_step(const Skeleton& history, std::uint32_t step, bool with_shed
 /// Skeleton::level.
 Skeleton cut_at_level(const Skeleton& skeleton, std::uint32_t level);
 
+/// The last step in which something grew or was shed or, of a tree without steps, its last level; 0 where the
+/// tree has neither.
+std::uint32_t last_step(const Skeleton& skeleton);
+
+/// cut_at_step() or, of a tree without steps, cut_at_level(). Needs birth_step or level.
+Skeleton cut_at(const Skeleton& skeleton, std::uint32_t step);
+
 /// The living part of a history, light and vigour kept.
 Skeleton living(const Skeleton& history);
 

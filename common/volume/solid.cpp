@@ -33,6 +33,12 @@ bool Solid::contains(const Vec3& point) const {
   return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.contains(point); });
 }
 
+double Solid::distance_bound(const Vec3& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Part& part : parts_) least = std::min(least, part.distance_bound(point));
+  return least;
+}
+
 bool Solid::is_farther(const Vec3& point, double distance) const {
   return std::all_of(parts_.begin(), parts_.end(),
                      [&](const Part& part) { return part.distance_bound(point) > distance; });

@@ -25,6 +25,10 @@ class Solid {
   /// A point on the surface is inside.
   bool contains(const Vec3& point) const;
 
+  /// Its sign tells outside from inside, and a point is at least that far from the surface, on either side.
+  /// Metres; infinite for a solid without parts.
+  double distance_bound(const Vec3& point) const;
+
   /// True only if the whole solid is farther than `distance` metres from `point`; false where that would take
   /// a closer look. Skips empty space cheaply.
   bool is_farther(const Vec3& point, double distance) const;

@@ -145,6 +145,17 @@ TEST_CASE("compare: of a tree from a file there is one, whatever --seeds says") 
   CHECK(count_of(metrics, "\ns4-fig6,") == 3);
 }
 
+TEST_CASE("compare: a mesh that ramify made is a config, with seeds of its own") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  REQUIRE(run_program("generate s4-fig6 --seed 5 -o tree.glb --quiet", where).code == 0);
+  REQUIRE(run_program("compare tree.glb s4-fig6 --seeds 2 -o out --quiet", where).code == 0);
+  const std::string metrics = read_file(folder.file("out/metrics.csv"));
+  CHECK(count_of(metrics, "\ntree.glb,") == 2);
+  CHECK(metrics.find("\ntree.glb,5,") != std::string::npos);
+  CHECK(metrics.find("\ntree.glb,6,") != std::string::npos);
+}
+
 TEST_CASE("compare: without gnuplot the report says so and has the tables") {
   const Folder folder;
   const Outcome outcome =
@@ -174,7 +185,9 @@ TEST_CASE("compare: what is wrong is one line, and nothing is written") {
   check_failure(run_program("compare s4-fig6 s4-fig88 -o out", where), 2,
                 "s4-fig88: no such file or preset (did you mean 's4-fig8'?)\n");
   check_failure(run_program("compare s4-fig6 none.csv -o out", where), 2, "none.csv: ");
-  check_failure(run_program("compare s4-fig6 a.glb -o out", where), 2, "a.glb: a mesh has no skeleton (");
+  std::ofstream(folder.file("b.gltf")) << "{\"asset\": {\"version\": \"2.0\"}}";
+  check_failure(run_program("compare s4-fig6 b.gltf -o out", where), 2,
+                "b.gltf: no config of ramify inside (files that `ramify generate` wrote have one)\n");
   check_failure(run_program("compare a.csv a.csv --seed 2 -o out", where), 2,
                 "--seed: no input is a config\n");
   check_failure(run_program("compare s4-fig6 s4-fig8 --up z -o out", where), 2,
@@ -186,7 +199,7 @@ TEST_CASE("compare: what is wrong is one line, and nothing is written") {
                 "file: is there already and no folder\n");
   check_failure(run_program("compare s4-fig6 s4-fig8 -o none/out", where), 1,
                 "none/out: cannot write: there is no folder ");
-  CHECK(folder.count() == 4);
+  CHECK(folder.count() == 5);
   CHECK(read_file(folder.file("mine/note.txt")) == "mine");
 }
 

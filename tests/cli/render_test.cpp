@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fstream>
 
 #include "common/base/files.h"
 #include "tests/catch.h"
@@ -67,11 +68,26 @@ TEST_CASE("render: every style, view, colour, scale and background makes a pictu
   const Folder folder;
   const std::string where = folder.path().string();
   std::vector<std::string> seen;
-  for (const std::string flags :
-       {"", "--style schematic", "--style skeleton", "--view side", "--view top", "--view 30,15",
-        "--color-by order", "--color-by birthStep", "--color-by light", "--color-by vigour",
-        "--color-by strahler", "--color-by width", "--scale", "--background '#ff8800'",
-        "--background transparent", "--at-step 5"}) {
+  for (const std::string flags : {"",
+                                  "--style schematic",
+                                  "--style skeleton",
+                                  "--view side",
+                                  "--view top",
+                                  "--view 30,15",
+                                  "--color-by order",
+                                  "--color-by birthStep",
+                                  "--color-by light",
+                                  "--color-by vigour",
+                                  "--color-by strahler",
+                                  "--color-by width",
+                                  "--scale",
+                                  "--background '#ff8800'",
+                                  "--background transparent",
+                                  "--at-step 5",
+                                  "--look-at 0,0.5,0",
+                                  "--look-at 0,0.5,0 --across 0.2",
+                                  "--look-at 0,0.6,0 --across 0.2",
+                                  "--look-at 0,0.6,0 --style schematic"}) {
     const Outcome outcome = run_program("render s4-fig7 -o p.png --size 128x128 " + flags, where);
     INFO(flags << ": " << outcome.err);
     REQUIRE(outcome.code == 0);
@@ -98,10 +114,20 @@ TEST_CASE("render: where there is no OpenGL one line says what to install, and t
   CHECK(folder.count() == 0);
 }
 
+TEST_CASE("render: a mesh that ramify made is a config for flags that change its tree") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  REQUIRE(run_program("generate s4-fig6 -o a.glb", where).code == 0);
+  REQUIRE(run_program("render a.glb --seed 3 --at-step 4 -o a.png --size 128x128", where).code == 0);
+  REQUIRE(run_program("render s4-fig6 --seed 3 --at-step 4 -o b.png --size 128x128", where).code == 0);
+  CHECK(read_file(folder.file("a.png")) == read_file(folder.file("b.png")));
+}
+
 TEST_CASE("render: what cannot be drawn is one line and leaves no file") {
   const Folder folder;
   const std::string where = folder.path().string();
   REQUIRE(run_program("generate s4-fig6 -o a.csv -o a.glb", where).code == 0);
+  std::ofstream(folder.file("b.gltf")) << "{\"asset\": {\"version\": \"2.0\"}}";
   struct Case {
     std::string arguments;
     int code;
@@ -117,7 +143,11 @@ TEST_CASE("render: what cannot be drawn is one line and leaves no file") {
        "--background: 'nocolour' (#rrggbb, a colour's name or transparent)"},
       {"s4-fig6 -o no/p.png", 1, "no/p.png: cannot write: there is no folder no"},
       {"a.csv -o p.png --seed 3", 2, "--seed: a.csv goes with configs only"},
-      {"a.glb -o p.png --at-step 3", 2, "--at-step: a.glb has no steps"},
+      {"s4-fig6 -o p.png --look-at 1,2", 2, "--look-at: '1,2' (X,Y,Z in metres)"},
+      {"s4-fig6 -o p.png --look-at 1,2,nan", 2, "--look-at: '1,2,nan' (X,Y,Z in metres)"},
+      {"s4-fig6 -o p.png --across 2", 2, "--across: goes with --look-at"},
+      {"b.gltf -o p.png --seed 3", 2,
+       "b.gltf: no config of ramify inside (files that `ramify generate` wrote have one)"},
       {"none.csv -o p.png", 2, "none.csv: cannot read: No such file or directory"},
       {"xm12-fig5 -o p.png --at-step 1", 2, "--at-step: xm12-fig5 has no steps"},
   };
@@ -125,13 +155,13 @@ TEST_CASE("render: what cannot be drawn is one line and leaves no file") {
     const Outcome outcome = run_program("render " + c.arguments, where);
     CHECK(outcome.code == c.code);
     CHECK(outcome.err == "ramify: " + c.message + "\n");
-    CHECK(folder.count() == 2);
+    CHECK(folder.count() == 3);
   }
   for (const std::string flags : {"--color-by level", "--color-by nothing"}) {
     const Outcome outcome = run_program("render s4-fig6 -o p.png " + flags, where);
     CHECK(outcome.code == 2);
     CHECK(outcome.err.rfind("ramify: ", 0) == 0);
     CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-    CHECK(folder.count() == 2);
+    CHECK(folder.count() == 3);
   }
 }

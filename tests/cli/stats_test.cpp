@@ -107,6 +107,24 @@ TEST_CASE("stats: a preset, its table and the counts of generate agree") {
   }
 }
 
+TEST_CASE("stats: files that ramify made are measured as what they were made from") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  REQUIRE(run_program("generate s4-fig6 --seed 4 -o a.glb -o a.gltf -o a.skel.ply", where).code == 0);
+  const auto measured = [&](const std::string& input) {
+    const Outcome outcome = run_program("stats --json " + input, where);
+    INFO(input << ": " << outcome.err);
+    REQUIRE(outcome.code == 0);
+    ordered_json object = ordered_json::parse(outcome.out);
+    object.erase("input");
+    return object;
+  };
+  const ordered_json expected = measured("s4-fig6 --seed 4");
+  for (const std::string input : {"a.glb", "a.gltf", "a.skel.ply"}) CHECK(measured(input) == expected);
+  CHECK(measured("a.glb --seed 5") == measured("s4-fig6 --seed 5"));
+  CHECK(measured("a.glb --at-step 3") == measured("s4-fig6 --seed 4 --at-step 3"));
+}
+
 TEST_CASE("stats: --csv prints a header and one row an input, empty where null") {
   const Folder folder;
   const std::string where = folder.path().string();
@@ -188,9 +206,10 @@ TEST_CASE("stats: what is wrong is one line") {
   const Folder folder;
   const std::string where = folder.path().string();
   REQUIRE(run_program("generate s4-fig6 -o a.csv -o a.glb", where).code == 0);
-  check_failure("stats a.glb", where,
-                "a.glb: a mesh has no skeleton (a config, a preset or a file ending in .csv, .txt, "
-                ".skel.ply, .swc, .mtg)");
+  std::ofstream(folder.file("b.gltf")) << "{\"asset\": {\"version\": \"2.0\"}}";
+  check_failure("stats b.gltf", where,
+                "b.gltf: no config of ramify inside (files that `ramify generate` wrote have one)");
+  check_failure("stats a.glb --up z", where, "--up: a.glb is no skeleton file");
   check_failure("stats s4-fig6 --csv --json", where, "--csv: not together with --json (one of them)");
   check_failure("stats s4-fig66", where, "s4-fig66: no such file or preset (did you mean 's4-fig6'?)");
   check_failure("stats s4-fig6 none.csv", where, "none.csv: cannot read: No such file or directory");

@@ -94,6 +94,20 @@ void check_sound(const Mesh& mesh) {
   CHECK(faults == 0);
 }
 
+/// To the last bit.
+void check_same(const Mesh& a, const Mesh& b) {
+  CHECK(a.positions == b.positions);
+  CHECK(a.normals == b.normals);
+  CHECK(a.uvs == b.uvs);
+  CHECK(a.tangents == b.tangents);
+  CHECK(a.colors == b.colors);
+  CHECK(a.internodes == b.internodes);
+  CHECK(a.triangles == b.triangles);
+  CHECK(a.ranges.size() == b.ranges.size());
+  CHECK(a.materials.size() == b.materials.size());
+  CHECK(a.warnings == b.warnings);
+}
+
 }  // namespace
 
 TEST_CASE("mesher: a pole becomes a closed tube whose volume is the truncated cone's") {
@@ -389,9 +403,21 @@ TEST_CASE("mesher: the number of threads does not change the mesh") {
     one = build_mesh(tree, {});
   }
   const ThreadLimit limit(2);
-  const Mesh two = build_mesh(tree, {});
-  CHECK(one.positions == two.positions);
-  CHECK(one.triangles == two.triangles);
+  check_same(one, build_mesh(tree, {}));
+}
+
+TEST_CASE("mesher: a mesh in the memory of another is the one in memory of its own") {
+  const Skeleton large = random_tree(1, 3000);
+  const Skeleton small = random_tree(2, 1000);
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+    Looks looks;
+    looks.mesher.method = method;
+    Mesh memory = make_tree_mesh(large, looks, 1).mesh;  // with bark, tangents and colours
+    const Vec3f* place = memory.positions.data();
+    const Mesh mesh = build_mesh(small, {.method = method}, std::move(memory));
+    check_same(mesh, build_mesh(small, {.method = method}));
+    if (method == MeshMethod::smooth) CHECK(mesh.positions.data() == place);
+  }
 }
 
 TEST_CASE("mesher: a lateral at the root is as thin there as further on") {

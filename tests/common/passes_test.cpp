@@ -121,3 +121,24 @@ TEST_CASE("cut: what is shed goes on holding its branch at the width it had") {
   CHECK(last.internode_count() == 4);
   CHECK(cut_at_step(history, 4, true).internode_count() == 7);
 }
+
+TEST_CASE("steps: the last one is when something grew or fell, or the last level") {
+  CHECK(last_step(pole(3)) == 0);
+  Skeleton history = binary_tree(1);
+  history.birth_step = {0, 1, 2, 2};
+  CHECK(last_step(history) == 2);
+  history.shed_step = {0, 0, 0, 5};
+  CHECK(last_step(history) == 5);
+  Skeleton planned = binary_tree(1);
+  planned.level = {1, 1, 3, 2};
+  CHECK(last_step(planned) == 3);
+}
+
+TEST_CASE("steps: a tree is cut at a step or, where it has none, at a level") {
+  Skeleton history = binary_tree(1);
+  history.birth_step = {0, 1, 2, 3};
+  CHECK(cut_at(history, 2).internode_count() == 2);
+  Skeleton planned = binary_tree(1);
+  planned.level = {1, 1, 3, 2};
+  CHECK(cut_at(planned, 2).internode_count() == 2);
+}

@@ -96,3 +96,27 @@ TEST_CASE("framing: a single point, or none, gives a camera that looks at it") {
     CHECK(glm::length(place(framer.camera(1.0), {5, 6, 7})) < 1e-9);
   }
 }
+
+TEST_CASE("close-up: a point is three numbers") {
+  CHECK(is_near(parse_point("1,-2.5,3e-1").value(), {1.0, -2.5, 0.3}));
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,", "a,2,3", "1,2,inf", "1, 2,3"}) {
+    INFO(text);
+    CHECK_FALSE(parse_point(text));
+  }
+}
+
+TEST_CASE("close-up: the place is in the middle and its shorter side as wide as asked for") {
+  const CloseUp place{{1.0, 2.0, -3.0}, 0.4};
+  for (const bool is_parallel : {false, true}) {
+    for (const double aspect : {1.0, 2.0, 0.5}) {
+      const Camera camera = close_up_camera({30.0, 20.0, is_parallel}, aspect, place, -50.0);
+      CHECK(glm::length(::place(camera, place.center)) < 1e-9);
+      const glm::dvec2 edge =
+          ::place(camera, place.center + camera.axes.right * (0.2 * std::max(aspect, 1.0)) +
+                              camera.axes.up * (0.2 / std::min(aspect, 1.0)));
+      CHECK(glm::length(edge - glm::dvec2(1.0)) < 1e-9);
+      const glm::dvec4 behind = camera.world_to_clip() * glm::dvec4(camera.axes.back * -49.9, 1.0);
+      CHECK(behind.z / behind.w < 1.0);
+    }
+  }
+}

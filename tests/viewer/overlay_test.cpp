@@ -1,5 +1,7 @@
 #include "viewer/overlay.h"
 
+#include <algorithm>
+
 #include "growth/engine.h"
 #include "pathplan/engine.h"
 #include "tests/catch.h"
@@ -54,9 +56,16 @@ TEST_CASE("outline: points of a ball's surface are a radius from its middle, wit
   for (const Vec3& point : points) CHECK(std::abs(glm::length(point - ball.center) - 2.0) < 0.2);
 }
 
-TEST_CASE("outline: all volumes of a config are found, wherever they stand") {
-  Job job = load_job(registry(), "xm12-fig5");
-  CHECK(volumes_in(job_table(*job.engine), &job).size() >= 2);
-  Job oak = load_job(registry(), "beside-wall");
-  CHECK(volumes_in(job_table(*oak.engine), &oak).size() >= 2);
+TEST_CASE("overlay: volumes and obstacles can be shown where a run uses some") {
+  const auto has = [](const std::string& preset, const char* name) {
+    const std::vector<std::string> names = overlay_names(load_job(registry(), preset));
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  CHECK(has("xm12-fig5", kVolumes));
+  CHECK_FALSE(has("xm12-fig5", kObstacles));
+  CHECK(has("xm12-obstacle", kObstacles));
+  CHECK(has("beside-wall", kObstacles));
+  CHECK_FALSE(has("beside-wall", kVolumes));  // its markers are not used
+  CHECK(has("space-oak", kVolumes));
+  CHECK(has("pruned-hedge", kVolumes));
 }

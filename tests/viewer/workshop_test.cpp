@@ -28,6 +28,7 @@ struct SlowEngine {
   static constexpr bool has_history = false;
   static inline std::atomic<int> stopped = 0;
   static std::vector<std::string> layers(const Parameters&) { return {}; }
+  static UsedVolumes volumes(const Parameters&) { return {}; }
   static std::vector<std::string> check(const Parameters&) { return {}; }
   static int steps(const Parameters& parameters) { return parameters.steps; }
   static RunResult run(const Parameters& parameters, const RunContext& context) {
@@ -85,6 +86,21 @@ TEST_CASE(
   CHECK(draft->skeleton.internode_count() < fine->skeleton.internode_count());
   CHECK(draft->mesh.triangles.size() < fine->mesh.triangles.size());
   CHECK(draft->sky.visibility.empty());
+}
+
+TEST_CASE("workshop: a draft is written into the memory of the one before") {
+  Workshop workshop([] {});
+  workshop.order({.number = 1, .job = job_of<growth::Engine>(8), .is_draft = true});
+  const auto first = awaited(workshop);
+  REQUIRE(first);
+  const Vec3f* memory = first->mesh.positions.data();
+  const auto positions = first->mesh.positions;
+  workshop.reuse(std::move(first->mesh));
+  workshop.order({.number = 2, .job = first->job, .run = first->run, .is_draft = true});
+  const auto second = awaited(workshop);
+  REQUIRE(second);
+  CHECK(second->mesh.positions.data() == memory);
+  CHECK(second->mesh.positions == positions);
 }
 
 TEST_CASE("workshop: the newest order wins and a long run is stopped for it") {

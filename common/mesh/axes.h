@@ -1,0 +1,48 @@
+// The axes of a skeleton, each with its points in a row from base to tip: what goes along branches then reads
+// memory in order. A skeleton's own order, that of growth, spreads an axis over all of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/base/bulk.h"
+#include "common/base/geometry.h"
+#include "common/skeleton/skeleton.h"
+
+namespace ramify {
+
+/// A node as meshes need it.
+struct AxisPoint {
+  Vec3f position;       // metres
+  float radius = 0.0f;  // metres
+  std::uint32_t node = 0;
+};
+
+/// A run of Axes::points: the node that the first internode grows from, then the axis's own. A lateral is as
+/// thick at its base as at its first node.
+struct Axis {
+  std::uint32_t first = 0;  // point
+  std::uint32_t count = 0;  // of points, at least 2
+  std::uint32_t base = 0;   // the bearer's point that the axis grows from; of a trunk its own first one
+  std::uint32_t bearer = kNoParent;  // the axis that this one grows from; none of a trunk
+  float bearer_radius = 0.0f;        // at the base; of a trunk its own
+
+  bool is_trunk() const { return bearer == kNoParent; }
+  std::uint32_t end() const { return first + count; }
+};
+
+struct Axes {
+  BulkVector<Axis> list;  // bearers before what they bear
+  BulkVector<AxisPoint> points;
+  float thinnest = 0.0f;  // radius, metres: no point has less
+  float thickest = 0.0f;  // radius of any node, metres
+
+  std::span<const AxisPoint> points_of(const Axis& axis) const {
+    return std::span(points).subspan(axis.first, axis.count);
+  }
+};
+
+/// All axes of a sound skeleton. O(n).
+Axes find_axes(const Skeleton& skeleton);
+
+}  // namespace ramify
