@@ -73,7 +73,8 @@ MesherOptions options_of(const std::string& work) {
 }
 
 Looks looks_of(const std::string& work) {
-  Looks looks{.mesher = options_of(work)};
+  Looks looks;
+  looks.mesher = options_of(work);
   looks.leaves.shape = LeafShape::ovate;
   return looks;
 }
