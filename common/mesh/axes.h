@@ -32,7 +32,7 @@ struct Axis {
 };
 
 struct Axes {
-  BulkVector<Axis> list;  // bearers before what they bear
+  BulkVector<Axis> list;  // by their first nodes: only a trunk may come after what grows beside it
   BulkVector<AxisPoint> points;
   float thinnest = 0.0f;  // radius, metres: no point has less
   float thickest = 0.0f;  // radius of any node, metres
