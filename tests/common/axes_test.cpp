@@ -57,7 +57,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "axes: an axis beside the trunk grows from the trunk's first point; without a trunk all are trunks") {
+    "axes: an axis beside the trunk grows from the trunk's first point, and without a trunk all are trunks") {
   Skeleton s = pole(2);
   s.position.push_back(Vec3(1, 0, 0));
   s.parent.push_back(0);
