@@ -24,6 +24,7 @@ namespace {
 using namespace pathplan;
 
 constexpr int kRepetitions = 3;
+constexpr int kSearches = 100;  // of some milliseconds: what else runs on the machine would decide of fewer
 constexpr int kFigureNodes = 33'000;
 constexpr int kManyNodes = 1'000'000;
 
@@ -124,6 +125,22 @@ Outcome find_costs(Subjects& subjects, bool is_plain, int count, Order order) {
   return timed_costs([&] { return sorted_costs(mushroom, nodes); });
 }
 
+/// The quickest of many searches.
+template <class Search>
+Outcome quickest(const Search& search) {
+  Outcome best = search();
+  for (int i = 1; i < kSearches; ++i) {
+    const Outcome outcome = search();
+    if (outcome.seconds < best.seconds) best = outcome;
+  }
+  return best;
+}
+
+Outcome search_random(Subjects& subjects) {
+  const Graph& graph = subjects.graph();
+  return quickest([&] { return timed_costs([&] { return shortest_paths(graph, kRoot).cost; }); });
+}
+
 Outcome search_guided(Subjects& subjects, WeightKind kind) {
   Graph graph = subjects.graph();
   assign_lengths(graph);
@@ -131,8 +148,10 @@ Outcome search_guided(Subjects& subjects, WeightKind kind) {
   Level level;
   level.weights = kind;
   const double spacing = subjects.mushroom(kFigureNodes).nodes.spacing;
-  GuidedSearch search(graph, level, spacing, kUp, 1);  // weights are not timed in the other search either
-  return timed_costs([&] { return search.paths_from(kRoot).cost; });
+  return quickest([&] {
+    GuidedSearch search(graph, level, spacing, kUp, 1);  // weights are not timed in the other search either
+    return timed_costs([&] { return search.paths_from(kRoot).cost; });
+  });
 }
 
 }  // namespace
@@ -155,8 +174,7 @@ void register_searches(Results& results, bool is_quick) {
       }
     }
   }
-  add(kRandom, kRepetitions,
-      [](Subjects& s) { return timed_costs([&] { return shortest_paths(s.graph(), kRoot).cost; }); });
+  add(kRandom, kRepetitions, search_random);
   add(kIncremental, kRepetitions, [](Subjects& s) { return search_guided(s, WeightKind::incremental); });
   add(kPeriodic, kRepetitions, [](Subjects& s) { return search_guided(s, WeightKind::periodic); });
 }
