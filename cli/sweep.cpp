@@ -1,19 +1,22 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/prctl.h>
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "cli/commands.h"
+#include "cli/experiment/plots.h"
 #include "cli/experiment/slurm_job.h"
+#include "cli/experiment/sweep_figures.h"
 #include "cli/experiment/sweep_folder.h"
+#include "cli/experiment/sweep_pictures.h"
 #include "cli/experiment/sweep_plan.h"
 #include "cli/experiment/sweep_pool.h"
+#include "cli/experiment/sweep_report.h"
 #include "cli/experiment/sweep_results.h"
 #include "cli/experiment/sweep_run.h"
 #include "cli/experiment/value_list.h"
@@ -22,6 +25,7 @@
 #include "cli/text.h"
 #include "common/base/errors.h"
 #include "common/base/files.h"
+#include "common/base/image.h"
 #include "common/base/parallel.h"
 
 namespace ramify::cli {
@@ -67,8 +71,9 @@ SweepPlan plan_of(const SweepFlags& flags, const Session& session) {
 }
 
 void check_flags(const SweepFlags& flags) {
-  if (flags.on_slurm && flags.collects)
+  if (flags.on_slurm && flags.collects) {
     throw InputError("--slurm, --collect: one of them (submit, then collect)");
+  }
   if (!flags.on_slurm && flags.slurm.tasks > 0) throw InputError("--tasks: goes with --slurm");
   if (!flags.on_slurm && !flags.slurm.sbatch_options.empty()) {
     throw InputError("--sbatch-options: goes with --slurm");
@@ -76,10 +81,13 @@ void check_flags(const SweepFlags& flags) {
   if (flags.slurm.sbatch_options.find('\n') != std::string::npos) {
     throw InputError("--sbatch-options: is more than a line");
   }
-  const bool is_from_folder = flags.collects && flags.config.empty() && flags.axes.empty();
-  if (!is_from_folder && flags.config.empty())
-    throw InputError("sweep: CONFIG is missing (a preset or a TOML file)");
-  if (!is_from_folder && flags.axes.empty()) throw InputError("--vary: is missing (KEY=LIST)");
+  const std::vector<Override> overrides = flags.configuring.overrides();
+  if (flags.collects && flags.config.empty() && flags.axes.empty()) {
+    if (!overrides.empty()) throw InputError(fmt::format("{}: goes with CONFIG", overrides.front().flag));
+    return;  // the folder tells them
+  }
+  if (flags.config.empty()) throw InputError("config is required");
+  if (flags.axes.empty()) throw InputError("--vary is required");
 }
 
 /// Makes the runs that are not finished. Throws Interrupted after Ctrl-C.
@@ -99,18 +107,69 @@ void make_missing(const SweepPlan& plan, const SweepFolder& folder, const SweepF
                                 plan.runs.size())};
 }
 
-void print_outcome(const SweepResults& results, const SweepFlags& flags, std::size_t made) {
-  const std::string table = (std::filesystem::path(flags.folder) / "results.csv").string();
+/// Draws the trees, if there is anything to draw with, and their contact sheet.
+void draw_pictures(SweepFindings& findings, const SweepFolder& folder, const Session& session,
+                   ProgressBar& bar) {
+  findings.picture_side = picture_side(findings.results.rows.size());
+  findings.picture_columns = picture_columns(findings.results.plan);
+  try {
+    findings.pictures =
+        draw_runs(findings.results, folder, session, [&](std::size_t done, std::size_t total) {
+          bar.show({"drawing", static_cast<double>(done), static_cast<double>(total), "picture"});
+        });
+    folder.write("contact-sheet.png", png_bytes(labelled_sheet(findings.results, findings.pictures)));
+  } catch (const GraphicsError& error) {
+    findings.notes.push_back(fmt::format("There are no pictures: {}.", error.what()));
+    findings.pictures.assign(findings.results.rows.size(), "");
+  }
+}
+
+/// Draws the figures where there is gnuplot, and keeps the SVGs for the report.
+void draw_figures(SweepFindings& findings, const SweepFolder& folder) {
+  findings.responses = responses_of(findings.results);
+  findings.has_gnuplot = has_gnuplot();
+  if (!findings.has_gnuplot) return;
+  const std::vector<Plot> lines = lines_of(findings.responses);
+  const std::vector<HeatMap> maps = maps_of(findings.responses);
+  const std::filesystem::path plots = folder.path() / "plots";
+  std::filesystem::create_directory(plots);
+  draw_plots(lines, plots);
+  draw_heat_maps(maps, plots);
+  const auto keep = [&](const std::string& name) {
+    findings.figure_svgs.push_back(read_file(plots / (name + ".svg")));
+  };
+  for (const Plot& plot : lines) keep(plot.name);
+  for (const HeatMap& map : maps) keep(map.name);
+}
+
+/// Writes what is told of the runs.
+SweepFindings report(const SweepPlan& plan, const SweepFolder& folder, const SweepFlags& flags,
+                     const Session& session) {
+  ProgressBar bar(flags.running.is_quiet);
+  SweepFindings findings;
+  findings.results = gather(plan, folder.runs());
+  folder.write("results.csv", results_csv(findings.results));
+  draw_pictures(findings, folder, session, bar);
+  draw_figures(findings, folder);
+  folder.write("report.html", sweep_report(findings));
+  return findings;
+}
+
+void print_outcome(const SweepFindings& findings, const SweepFlags& flags, std::size_t made) {
+  const std::filesystem::path folder = flags.folder;
+  const SweepResults& results = findings.results;
   if (flags.running.is_json) {
-    const nlohmann::ordered_json object = {{"runs", results.rows.size()},
+    const nlohmann::ordered_json object = {{"report", (folder / "report.html").string()},
+                                           {"results", (folder / "results.csv").string()},
+                                           {"gnuplot", findings.has_gnuplot},
+                                           {"runs", results.rows.size()},
                                            {"done", results.count_done()},
-                                           {"failed", results.count_failed()},
-                                           {"made_now", made},
-                                           {"results", table}};
+                                           {"failed", results.rows.size() - results.count_done()},
+                                           {"made_now", made}};
     fmt::print("{}\n", object.dump());
   } else if (!flags.running.is_quiet) {
-    fmt::print("{} of {} runs are done, {} of them made now\n  {}\n", grouped(results.count_done()),
-               grouped(results.rows.size()), grouped(made), table);
+    fmt::print("{}\n{} made now\n  {}\n  {}\n", sweep_in_words(findings), grouped(made),
+               (folder / "results.csv").string(), (folder / "report.html").string());
   }
 }
 
@@ -120,7 +179,6 @@ void submit_missing(const SweepPlan& plan, const SweepFolder& folder, std::span<
   SlurmOptions options = flags.slurm;
   options.threads = flags.running.threads;
   const SlurmJob job = submit(plan, missing, folder.path(), options);
-  const std::string next = fmt::format("ramify sweep -o {} --collect", shell_quoted(flags.folder));
   if (flags.running.is_json) {
     const nlohmann::ordered_json object = {{"runs", plan.runs.size()},
                                            {"submitted", missing.size()},
@@ -129,43 +187,29 @@ void submit_missing(const SweepPlan& plan, const SweepFolder& folder, std::span<
                                            {"folder", job.folder.string()}};
     fmt::print("{}\n", object.dump());
   } else if (!flags.running.is_quiet) {
-    fmt::print("job {}: {} of {} runs in {} tasks\n", job.id, grouped(missing.size()),
-               grouped(plan.runs.size()), job.tasks);
-    fmt::print("  squeue --job {} tells how far it is; then: {}\n", job.id, next);
+    fmt::print(
+        "job {}: {} of {} runs in {} tasks\n  squeue --job {} tells how far it is\n  ramify sweep -o {} "
+        "--collect gathers\n",
+        job.id, grouped(missing.size()), grouped(plan.runs.size()), job.tasks, job.id,
+        shell_quoted(flags.folder));
   }
 }
 
-/// Which runs are missing still, and what can be done about it.
-RunError missing_error(const SweepPlan& plan, const SweepFolder& folder, const SweepResults& results) {
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < results.rows.size(); ++i) {
-    if (status_of(results.rows[i]) == "missing") missing.push_back(i);
-  }
-  std::string text = fmt::format("{} of {} runs are missing", missing.size(), plan.runs.size());
-  if (const auto job = submitted(folder.path(), plan)) {
-    std::set<std::size_t> tasks;
-    for (const std::size_t run : missing) tasks.insert(slice_of(plan.runs[run], job->slices));
-    text += fmt::format(", of job {}'s tasks {} (squeue --job {} tells whether they run; logs: {})", job->id,
-                        fmt::join(tasks, ", "), job->id, (job->folder / "task-K.log").string());
-  }
-  return RunError(text + ": the sweep's command makes them here, or with --slurm there");
-}
-
-/// Writes the results and reports failures. `done_before`: runs that were finished when this began.
+/// Reports what there is. `done_before`: runs that were finished when this began.
 void finish(const SweepPlan& plan, const SweepFolder& folder, const SweepFlags& flags,
-            std::size_t done_before) {
-  const SweepResults results = gather(plan, folder.runs());
-  folder.write("results.csv", results_csv(results));
-  print_outcome(results, flags, results.count_done() - done_before);
-  const std::size_t failed = results.count_failed();
-  if (failed > 0) {
-    throw RunError(fmt::format("{} of {} runs failed ({} says why)", failed, results.rows.size(),
-                               (folder.path() / "results.csv").string()));
+            std::size_t done_before, const Session& session) {
+  const SweepFindings findings = report(plan, folder, flags, session);
+  const SweepResults& results = findings.results;
+  print_outcome(findings, flags, results.count_done() - done_before);
+  const std::size_t missing = results.rows.size() - results.count_done() - results.count_failed();
+  if (missing > 0) throw RunError(missing_text(results, folder.path()));
+  if (results.count_failed() > 0) {
+    throw RunError(fmt::format("{} of {} runs failed ({} says why)", results.count_failed(),
+                               results.rows.size(), (folder.path() / "results.csv").string()));
   }
-  if (results.count_done() < results.rows.size()) throw missing_error(plan, folder, results);
 }
 
-/// What runs there are of a sweep that other processes make, or made.
+/// What there is of a sweep that other processes make, or made.
 void collect(const SweepFlags& flags, const Session& session) {
   const std::filesystem::path plan_file = std::filesystem::path(flags.folder) / kPlanFile;
   std::error_code error;
@@ -175,11 +219,14 @@ void collect(const SweepFlags& flags, const Session& session) {
   const SweepPlan plan =
       flags.config.empty() ? read_plan(read_file(plan_file), plan_file.string()) : plan_of(flags, session);
   const SweepFolder folder(flags.folder);
-  finish(plan, folder, flags, gather(plan, folder.runs()).count_done());
+  finish(plan, folder, flags, gather(plan, folder.runs()).count_done(), session);
 }
 
 void sweep(const SweepFlags& flags, const Session& session) {
   check_flags(flags);
+  const ThreadLimit limit(flags.running.threads);
+  // Where Mesa draws in software, by as many threads, too.
+  if (flags.running.threads > 0) setenv("LP_NUM_THREADS", std::to_string(flags.running.threads).c_str(), 0);
   if (flags.collects) return collect(flags, session);
   const SweepPlan plan = plan_of(flags, session);
   SweepFolder folder(flags.folder);
@@ -189,7 +236,7 @@ void sweep(const SweepFlags& flags, const Session& session) {
   const std::vector<std::size_t> missing = unfinished(before);
   if (flags.on_slurm && !missing.empty()) return submit_missing(plan, folder, missing, flags);
   make_missing(plan, folder, flags, session);
-  finish(plan, folder, flags, before.count_done());
+  finish(plan, folder, flags, before.count_done(), session);
 }
 
 struct SweepRunFlags {
@@ -204,6 +251,22 @@ void sweep_run(const SweepRunFlags& flags, const Session& session) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const ThreadLimit limit(flags.running.threads);
   make_runs(load_job(session.registry, flags.config), flags.at_steps, flags.runs, session);
+}
+
+void add_cluster_flags(CLI::App& command, SweepFlags& flags) {
+  command.add_flag("--slurm", flags.on_slurm,
+                   "Hand the runs to Slurm as an array job; DIR must be on a disk that its machines share");
+  command
+      .add_option("--tasks", flags.slurm.tasks,
+                  "With --slurm: tasks that share the runs, 16 at most if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, static_cast<int>(kMaxRuns)));
+  command
+      .add_option("--sbatch-options", flags.slurm.sbatch_options,
+                  "With --slurm: more options of sbatch, such as '--partition=long --time=2:00:00'")
+      ->type_name("TEXT");
+  command.add_flag("--collect", flags.collects,
+                   "Only gather the runs that are there; CONFIG and --vary may be left out");
 }
 
 }  // namespace
@@ -224,19 +287,7 @@ void add_sweep(CLI::App& program, const Session& session) {
   command->add_option("-o,--output", flags->folder, "Folder for the runs and what is gathered from them")
       ->type_name("DIR")
       ->required();
-  command->add_flag("--slurm", flags->on_slurm,
-                    "Hand the runs to Slurm as an array job; DIR must be on a disk that its machines share");
-  command
-      ->add_option("--tasks", flags->slurm.tasks,
-                   "With --slurm: tasks that share the runs, 16 at most if not given")
-      ->type_name("N")
-      ->check(CLI::Range(1, static_cast<int>(kMaxRuns)));
-  command
-      ->add_option("--sbatch-options", flags->slurm.sbatch_options,
-                   "With --slurm: more options of sbatch, such as '--partition=long --time=2:00:00'")
-      ->type_name("TEXT");
-  command->add_flag("--collect", flags->collects,
-                    "Only gather the runs that are there; CONFIG and --vary may be left out");
+  add_cluster_flags(*command, *flags);
   flags->configuring.add_to(*command);
   flags->running.add_to(*command);
   command->callback([flags, &session] { sweep(*flags, session); });

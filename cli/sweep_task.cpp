@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/experiment/run_folder.h"
+#include "cli/experiment/sweep_folder.h"
 #include "cli/experiment/sweep_plan.h"
 #include "cli/experiment/sweep_pool.h"
 #include "cli/experiment/sweep_results.h"
@@ -20,7 +21,7 @@ namespace {
 
 struct TaskFlags {
   std::string plan;
-  std::string runs;
+  std::string folder;
   std::size_t slice = 0;
   std::size_t slices = 1;
   RunFlags running;
@@ -30,18 +31,20 @@ struct TaskFlags {
 /// what is lost is that they make the same runs.
 void sweep_task(const TaskFlags& flags, const Session& session) {
   const SweepPlan plan = read_plan(read_file(flags.plan), flags.plan);
-  std::vector<std::size_t> missing = unfinished(gather(plan, flags.runs));
+  SweepFolder folder(flags.folder);
+  folder.join();
+  std::vector<std::size_t> missing = unfinished(gather(plan, folder.runs()));
   std::erase_if(missing,
                 [&](std::size_t run) { return slice_of(plan.runs[run], flags.slices) != flags.slice; });
-  for (const std::size_t run : missing) forget_failure(flags.runs, plan.runs[run].name);
+  for (const std::size_t run : missing) forget_failure(folder.runs(), plan.runs[run].name);
   ProgressBar bar(flags.running.is_quiet);
-  make_batches(plan, batches_of(plan, missing), {flags.runs, flags.running.threads, session.stop},
+  make_batches(plan, batches_of(plan, missing), {folder.runs(), flags.running.threads, session.stop},
                [&](std::size_t made) {
                  bar.show({"slice", static_cast<double>(made), static_cast<double>(missing.size()), "run"});
                });
   bar.clear();
   if (session.stop.stop_requested()) throw Interrupted{"what is made is kept"};
-  const SweepResults results = gather(plan, flags.runs);
+  const SweepResults results = gather(plan, folder.runs());
   const auto failed = std::count_if(missing.begin(), missing.end(),
                                     [&](std::size_t run) { return !results.rows[run].record.has_value(); });
   fmt::print("slice {} of {}: {} runs made\n", flags.slice, flags.slices,
@@ -56,7 +59,7 @@ void add_sweep_task(CLI::App& program, const Session& session) {
   CLI::App* command = program.add_subcommand("sweep-task", "One slice of a sweep on a cluster");
   command->group("");  // for the job scripts of sweep alone
   command->add_option("plan", flags->plan)->required();
-  command->add_option("-o,--output", flags->runs)->required();
+  command->add_option("-o,--output", flags->folder)->required();
   command->add_option("--slice", flags->slice)->required();
   command->add_option("--slices", flags->slices)->required()->check(CLI::PositiveNumber);
   flags->running.add_to(*command);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/base/errors.h"
+#include "common/base/lanes.h"
 #include "common/base/parallel.h"
 #include "common/base/rng.h"
 #include "common/volume/solid.h"
@@ -40,10 +41,6 @@ constexpr double kConeSlack = 1e-9;
 
 // Sums of unit vectors shorter than this have cancelled out.
 constexpr double kShortestSum = 1e-6;
-
-// Markers that are looked at together: with 8 the compiler uses vectors. The arrays go on for as many after
-// the last.
-constexpr std::size_t kLanes = 8;
 
 // Where a marker goes that is taken away: its squared distance is infinite.
 constexpr float kNowhere = 1e30f;
@@ -85,8 +82,6 @@ template <class Real>
 Real signed_square(Real value) {
   return value * std::abs(value);
 }
-
-using Lanes = std::array<std::int32_t, kLanes>;
 
 /// A random place in the solid, from the low corner of its box; rounded to floats, and inside as it stands.
 Vec3f draw_offset(const Solid& solid, const Box& box, std::uint64_t seed, std::uint64_t number) {
@@ -159,20 +154,16 @@ struct Markers::View {
     cosine_square = static_cast<float>(cone.cosine_square - 1e-5);
   }
 
-  /// Which of the first `count` markers are seen: 0 or 1.
-  Lanes look(const float* x, const float* y, const float* z, std::int32_t count) const {
-    Lanes is_seen;
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float dx = x[k] - position.x;
-      const float dy = y[k] - position.y;
-      const float dz = z[k] - position.z;
-      const float square = dx * dx + dy * dy + dz * dz;
-      const float along = dx * direction.x + dy * direction.y + dz * direction.z + lead;
-      is_seen[k] = static_cast<std::int32_t>(square <= square_radius) &
-                   static_cast<std::int32_t>(signed_square(along) >= cosine_square * square) &
-                   static_cast<std::int32_t>(static_cast<std::int32_t>(k) < count);
-    }
-    return is_seen;
+  /// Which of four markers are seen, of those up to before the end.
+  LaneMask look(const float* x, const float* y, const float* z, std::int32_t end) const {
+    const Lanes dx = load_lanes(x) - position.x;
+    const Lanes dy = load_lanes(y) - position.y;
+    const Lanes dz = load_lanes(z) - position.z;
+    const Lanes square = dx * dx + dy * dy + dz * dz;
+    const Lanes along = dx * direction.x + dy * direction.y + dz * direction.z + lead;
+    const Lanes signed_along = along * magnitude(along);
+    return (square <= square_radius) & (signed_along >= cosine_square * square) &
+           (LaneMask{0, 1, 2, 3} < end);
   }
 
   Vec3f position;  // from the box's low corner
@@ -268,20 +259,25 @@ bool Markers::is_barren(const Vec3& point) const {
 }
 
 void Markers::occupy(std::span<const Vec3> points, double radius) {
+  std::vector<std::uint32_t> room;
   for (const Vec3& point : points) {
-    if (radius > reach_ || !is_barren(point)) remove_within(point, radius);
+    if (radius > reach_ || !is_barren(point)) remove_within(point, radius, room);
   }
 }
 
-void Markers::remove_within(const Vec3& point, double radius) {
+void Markers::remove_within(const Vec3& point, double radius, std::vector<std::uint32_t>& room) {
   const Vec3 from_low = point - box_.low;
   const double margin = radius + kCellSlack * edge_;
   const Coord low = cell_of(from_low - margin);
   const Coord high = cell_of(from_low + margin);
+  const View all_round(from_low, Cone(Seeker{point, kUp, radius, -1.0}));
   for (int z = low.z; z <= high.z; ++z) {
     for (int y = low.y; y <= high.y; ++y) {
+      Cell* const row = &cells_[index_of({0, y, z})];
+      const Cell run{row[low.x].begin, row[high.x].end};
+      if (look_over({&run, 1}, all_round, room).empty()) continue;  // what was near is taken already
       for (int x = low.x; x <= high.x; ++x) {
-        Cell& cell = cells_[index_of({x, y, z})];
+        Cell& cell = row[x];
         // Those that stay keep their order: what is left does not depend on the order of the points.
         std::uint32_t kept = cell.begin;
         for (std::uint32_t i = cell.begin; i < cell.end; ++i) {
@@ -315,7 +311,8 @@ void Markers::claim(std::span<const Seeker> seekers, std::vector<Claim>& claims)
 
   // All bid. A marker may be won and lost again; who holds it at the end is among those who won it.
   parallel_for(groups, 1, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> candidates;
+    std::vector<Cell> runs;
+    std::vector<std::uint32_t> room;
     for (std::size_t group = begin; group < end; ++group) {
       won_[group].clear();
       // Fetched one after the other the seekers come from memory all at once.
@@ -324,7 +321,8 @@ void Markers::claim(std::span<const Seeker> seekers, std::vector<Claim>& claims)
         const Cone cone(sorted_[i]);
         const Vec3 from_low = sorted_[i].position - box_.low;
         assert(cone.radius <= reach_ * (1.0 + kCellSlack));
-        find_candidates(from_low, cone, candidates);
+        find_runs(from_low, cone, runs);
+        const std::span<const std::uint32_t> candidates = look_over(runs, View(from_low, cone), room);
         saw_[i] = !candidates.empty();
         win_count_[i] = contend(from_low, order_[i], cone, candidates, won_[group]);
       }
@@ -378,52 +376,58 @@ void Markers::sort_into_bricks(std::span<const Seeker> seekers, std::vector<Clai
   }
 }
 
-/// The markers that a seeker sees from there, and perhaps a few more, in the order of the cells.
-void Markers::find_candidates(const Vec3& from_low, const Cone& cone,
-                              std::vector<std::uint32_t>& candidates) const {
+/// Cells along x that hold all markers which a seeker may see from there, in their order. Which rows have any
+/// is hard to foretell, so nothing here branches on it.
+void Markers::find_runs(const Vec3& from_low, const Cone& cone, std::vector<Cell>& runs) const {
   const double margin = kCellSlack * edge_;
   const Box bounds = cone.bounds();
   const Coord low = cell_of(from_low + bounds.low - margin);
   const Coord high = cell_of(from_low + bounds.high + margin);
   const Vec3 center = from_low + cone.ball_distance * cone.direction;
   const double square_radius = (cone.ball_radius + margin) * (cone.ball_radius + margin);
-  const View view(from_low, cone);
-
   // How far along one axis the ball's centre is from a row of cells.
   const auto gap = [&](double place, int cell) {
     return std::max({cell * edge_ - place, place - (cell + 1) * edge_, 0.0});
   };
 
-  std::size_t found = 0;
+  runs.resize(static_cast<std::size_t>((high.y - low.y + 1) * (high.z - low.z + 1)));
+  std::size_t count = 0;
   for (int z = low.z; z <= high.z; ++z) {
     const double gap_z = gap(center.z, z);
     for (int y = low.y; y <= high.y; ++y) {
       const double gap_y = gap(center.y, y);
       const double square_half = square_radius - gap_y * gap_y - gap_z * gap_z;
-      if (square_half < 0.0) continue;
-      const double half = std::sqrt(square_half);
+      const double half = std::sqrt(std::max(square_half, 0.0));
       const Cell* const row = &cells_[index_of({0, y, z})];
-      int first = std::max(low.x, static_cast<int>((center.x - half) * inverse_edge_));
-      int last = std::min(high.x, static_cast<int>((center.x + half) * inverse_edge_));
-      while (first <= last && row[first].is_empty()) ++first;
-      while (first <= last && row[last].is_empty()) --last;
-      if (first > last) continue;
-
-      const std::size_t begin = row[first].begin;
-      const std::size_t end = row[last].end;
-      if (candidates.size() < found + (end - begin) + kLanes) {
-        candidates.resize(2 * candidates.size() + (end - begin) + kLanes);
-      }
-      for (std::size_t i = begin; i < end; i += kLanes) {
-        const Lanes is_seen = view.look(&x_[i], &y_[i], &z_[i], static_cast<std::int32_t>(end - i));
-        for (std::size_t k = 0; k < kLanes; ++k) {
-          candidates[found] = static_cast<std::uint32_t>(i + k);
-          found += static_cast<std::size_t>(is_seen[k]);
-        }
-      }
+      const auto cell_at = [&](double x) {
+        return std::clamp(static_cast<int>(x * inverse_edge_), low.x, high.x);
+      };
+      runs[count] = {row[cell_at(center.x - half)].begin, row[cell_at(center.x + half)].end};
+      count += (square_half >= 0.0) & !runs[count].is_empty();
     }
   }
-  candidates.resize(found);
+  runs.resize(count);
+}
+
+/// Those of their markers that are in view, and perhaps a few more, in the same order; valid until `room` is
+/// used again. The view is copied, or it would be read again for each marker.
+std::span<const std::uint32_t> Markers::look_over(std::span<const Cell> runs, View view,
+                                                  std::vector<std::uint32_t>& room) const {
+  std::size_t most = kLanes;
+  for (const Cell& run : runs) most += run.end - run.begin;
+  if (room.size() < most) room.resize(2 * most);
+  std::uint32_t* const seen = room.data();
+  const float* const x = x_.data();
+  const float* const y = y_.data();
+  const float* const z = z_.data();
+  std::size_t count = 0;
+  for (const Cell& run : runs) {
+    for (std::size_t i = run.begin; i < run.end; i += kLanes) {
+      const LaneMask is_seen = view.look(x + i, y + i, z + i, static_cast<std::int32_t>(run.end - i));
+      count += pack(LaneNumbers{0, 1, 2, 3} + static_cast<std::uint32_t>(i), is_seen, seen + count);
+    }
+  }
+  return {seen, count};
 }
 
 /// Bids for those that it sees indeed; says how many it won and puts them behind `won`.

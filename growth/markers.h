@@ -75,10 +75,12 @@ class Markers {
 
   void lay_out_cells(double marker_count);
   void sort_into_cells(std::span<const Vec3f> offsets);
-  void remove_within(const Vec3& point, double radius);
+  void remove_within(const Vec3& point, double radius, std::vector<std::uint32_t>& room);
   void add_to_neighbourhood(const Coord& cell, std::uint8_t amount);
   void sort_into_bricks(std::span<const Seeker> seekers, std::vector<Claim>& claims);
-  void find_candidates(const Vec3& from_low, const Cone& cone, std::vector<std::uint32_t>& candidates) const;
+  void find_runs(const Vec3& from_low, const Cone& cone, std::vector<Cell>& runs) const;
+  std::span<const std::uint32_t> look_over(std::span<const Cell> runs, View view,
+                                           std::vector<std::uint32_t>& room) const;
   std::uint32_t contend(const Vec3& from_low, std::uint32_t number, const Cone& cone,
                         std::span<const std::uint32_t> candidates, std::vector<std::uint32_t>& won);
   Claim collect(const Seeker& seeker, std::uint32_t number, std::span<const std::uint32_t> won);

@@ -1,67 +1,17 @@
 #include "pathplan/near_nodes.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 
-#ifdef __SSSE3__
-#include <immintrin.h>
-#endif
+#include "common/base/lanes.h"
 
 namespace ramify::pathplan {
 namespace {
 
-// Nodes that are looked at in one instruction.
-constexpr std::size_t kQuad = 4;
-using Quad [[gnu::vector_size(kQuad * sizeof(float))]] = float;
-using QuadMask [[gnu::vector_size(kQuad * sizeof(float))]] = std::int32_t;
-
 // Near nothing, itself included.
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
-
-Quad load(const float* values) {
-  Quad quad;
-  std::memcpy(&quad, values, sizeof quad);
-  return quad;
-}
-
-Quad all(float value) {
-  return Quad{value, value, value, value};
-}
-
-/// Writes the places whose lanes are set, one after the other, and returns how many; behind them as many are
-/// overwritten as are not set. Without a branch, which could not be foreseen.
-std::size_t pack(const std::uint32_t* places, const QuadMask& is_set, std::uint32_t* packed) {
-#ifdef __SSSE3__
-  static constexpr auto kShuffles = [] {
-    std::array<std::array<std::uint8_t, 16>, 16> shuffles{};
-    for (unsigned set = 0; set < 16; ++set) {
-      unsigned to = 0;
-      for (unsigned lane = 0; lane < kQuad; ++lane) {
-        if ((set >> lane & 1) == 0) continue;
-        for (unsigned byte = 0; byte < 4; ++byte)
-          shuffles[set][to++] = static_cast<std::uint8_t>(4 * lane + byte);
-      }
-    }
-    return shuffles;
-  }();
-  const auto set = static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(is_set)));
-  const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(places));
-  const __m128i shuffle = _mm_loadu_si128(reinterpret_cast<const __m128i*>(kShuffles[set].data()));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(packed), _mm_shuffle_epi8(all, shuffle));
-  return static_cast<std::size_t>(std::popcount(set));
-#else
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < kQuad; ++k) {
-    packed[count] = places[k];
-    count += static_cast<std::size_t>(is_set[k] & 1);
-  }
-  return count;
-#endif
-}
 
 }  // namespace
 
@@ -72,7 +22,7 @@ RoundedNodes::RoundedNodes(std::span<const Vec3> nodes, const PointGrid& grid) :
   center_ = box.center();
   size_ = box.size().x + box.size().y + box.size().z;
 
-  for (std::vector<float>* axis : {&x_, &y_, &z_}) axis->assign(nodes.size() + kQuad, kNowhere);
+  for (std::vector<float>* axis : {&x_, &y_, &z_}) axis->assign(nodes.size() + kLanes, kNowhere);
   for (std::size_t place = 0; place < nodes.size(); ++place) {
     const Vec3f rounded(nodes[grid.order()[place]] - center_);
     x_[place] = rounded.x;
@@ -109,39 +59,39 @@ std::span<const std::uint32_t> NearNodes::among(const PointGrid::Cells& cells, c
 
 /// Takes whole quads: what is beyond the run is nodes farther on.
 void NearNodes::add_run(std::size_t first, std::size_t size) {
-  const std::size_t end = count_ + (size + kQuad - 1) / kQuad * kQuad;
-  if (places_.size() < end + kQuad) {
-    for (std::vector<float>* axis : {&x_, &y_, &z_}) axis->resize(2 * (end + kQuad));
-    for (std::vector<std::uint32_t>* places : {&places_, &near_}) places->resize(2 * (end + kQuad));
+  const std::size_t end = count_ + (size + kLanes - 1) / kLanes * kLanes;
+  if (places_.size() < end + kLanes) {
+    for (std::vector<float>* axis : {&x_, &y_, &z_}) axis->resize(2 * (end + kLanes));
+    for (std::vector<std::uint32_t>* places : {&places_, &near_}) places->resize(2 * (end + kLanes));
   }
-  for (; count_ < end; count_ += kQuad, first += kQuad) {
-    std::memcpy(&x_[count_], &nodes_.x_[first], sizeof(Quad));
-    std::memcpy(&y_[count_], &nodes_.y_[first], sizeof(Quad));
-    std::memcpy(&z_[count_], &nodes_.z_[first], sizeof(Quad));
-    for (std::size_t k = 0; k < kQuad; ++k) places_[count_ + k] = static_cast<std::uint32_t>(first + k);
+  for (; count_ < end; count_ += kLanes, first += kLanes) {
+    std::memcpy(&x_[count_], &nodes_.x_[first], sizeof(Lanes));
+    std::memcpy(&y_[count_], &nodes_.y_[first], sizeof(Lanes));
+    std::memcpy(&z_[count_], &nodes_.z_[first], sizeof(Lanes));
+    for (std::size_t k = 0; k < kLanes; ++k) places_[count_ + k] = static_cast<std::uint32_t>(first + k);
   }
 }
 
 /// Quads may begin anywhere, so that the last one may go on behind the last node.
 void NearNodes::end() {
-  if (count_ > 0) std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(count_), kQuad, kNowhere);
+  if (count_ > 0) std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(count_), kLanes, kNowhere);
 }
 
 std::span<const std::uint32_t> NearNodes::near(std::size_t from, const Vec3f& position, double reach) {
-  const Quad x = all(position.x);
-  const Quad y = all(position.y);
-  const Quad z = all(position.z);
+  const Lanes x = all_lanes(position.x);
+  const Lanes y = all_lanes(position.y);
+  const Lanes z = all_lanes(position.z);
   const float limit = nodes_.reach_with_rounding(reach);
-  const Quad square = all(limit * limit);
+  const Lanes square = all_lanes(limit * limit);
   const std::uint32_t* const places = places_.data();
   std::uint32_t* const found = near_.data();
   std::size_t count = 0;
-  for (std::size_t i = from; i < count_; i += kQuad) {
-    const Quad dx = load(&x_[i]) - x;
-    const Quad dy = load(&y_[i]) - y;
-    const Quad dz = load(&z_[i]) - z;
-    const QuadMask is_near = dx * dx + dy * dy + dz * dz <= square;
-    count += pack(places + i, is_near, found + count);
+  for (std::size_t i = from; i < count_; i += kLanes) {
+    const Lanes dx = load_lanes(&x_[i]) - x;
+    const Lanes dy = load_lanes(&y_[i]) - y;
+    const Lanes dz = load_lanes(&z_[i]) - z;
+    const LaneMask is_near = dx * dx + dy * dy + dz * dz <= square;
+    count += pack(load_lanes(places + i), is_near, found + count);
   }
   return {found, count};
 }

@@ -83,6 +83,15 @@ glm::dmat4 Camera::world_to_clip() const {
          view;
 }
 
+std::array<Vec3, 8> corners(const Box& box) {
+  std::array<Vec3, 8> result;
+  for (int index = 0; index < 8; ++index) {
+    result[index] = {index & 1 ? box.high.x : box.low.x, index & 2 ? box.high.y : box.low.y,
+                     index & 4 ? box.high.z : box.low.z};
+  }
+  return result;
+}
+
 double field_of_view() {
   return std::tan(radians(kFieldOfViewDeg / 2.0));
 }

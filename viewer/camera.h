@@ -1,6 +1,7 @@
 // Where a picture is taken from. Pure geometry, no OpenGL.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -45,6 +46,8 @@ struct Camera {
   /// World to OpenGL's clip space.
   glm::dmat4 world_to_clip() const;
 };
+
+std::array<Vec3, 8> corners(const Box& box);
 
 /// A place of the scene that fills the picture.
 struct CloseUp {

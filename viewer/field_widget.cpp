@@ -46,9 +46,10 @@ WidgetOutcome number_slider(const FieldRow& row, double& value, double reference
 WidgetOutcome integer_slider(const FieldRow& row, int& value, int reference) {
   const SliderRange range = slider_range(row.info, value, reference);
   const std::string format = "%d" + short_unit(row.info);
-  const bool is_changed =
-      ImGui::SliderInt("##value", &value, static_cast<int>(range.low),
-                       static_cast<int>(std::max(range.high, range.low + 1.0)), format.c_str());
+  // A count of 0 may become some.
+  const double high = std::max(range.high, std::min(row.info.max, 10.0));
+  const bool is_changed = ImGui::SliderInt("##value", &value, static_cast<int>(range.low),
+                                           static_cast<int>(std::max(high, range.low + 1.0)), format.c_str());
   if (is_changed) value = static_cast<int>(allowed(row.info, value));
   return outcome(is_changed);
 }

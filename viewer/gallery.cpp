@@ -48,8 +48,8 @@ void Gallery::take() {
   orbit.elevation_deg = 4.0;
   ShowOptions show;
   show.style = RenderStyle::schematic;
-  pane_.picture({{product.get(), std::nullopt}}, show, framed(orbit, product->box, aspect), 2 * kPictureWidth,
-                2 * kPictureHeight, false);
+  pane_.picture({{product.get(), std::nullopt}}, show, framed(orbit, framing_points(*product), aspect),
+                2 * kPictureWidth, 2 * kPictureHeight, Quality::finest);
   thumbnail.texture = texture_of(pane_.image());
 }
 

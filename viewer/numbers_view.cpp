@@ -17,6 +17,13 @@ std::string text_of(const MetricInfo& info, const std::optional<double>& value) 
   return info.is_count ? fmt::format("{:.0f}", *value) : fmt::format("{:.4g}", *value);
 }
 
+std::string difference_text(const MetricInfo& info, double from, double to) {
+  // What rounding leaves is none.
+  const bool is_none = std::abs(to - from) <= 1e-12 * std::max(std::abs(from), std::abs(to));
+  if (is_none) return "0";
+  return info.is_count ? fmt::format("{:+.0f}", to - from) : fmt::format("{:+.3g}", to - from);
+}
+
 void right_aligned(const std::string& text) {
   const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, free));
@@ -47,17 +54,18 @@ void metric_row(const MetricInfo& info, const Workbench& bench) {
   }
   if (values.size() < 2) return;
   ImGui::TableNextColumn();
-  right_aligned(values[0] && values[1] ? text_of(info, *values[1] - *values[0]) : "-");
+  right_aligned(values[0] && values[1] ? difference_text(info, *values[0], *values[1]) : "-");
 }
 
 void metric_rows(Workbench& bench) {
   const int columns = bench.seats.size() > 1 ? 4 : 2;
   if (!ImGui::BeginTable("metrics", columns, ImGuiTableFlags_RowBg)) return;
-  ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch, 1.7f);
+  const float width = ImGui::CalcTextSize("-0.00000").x;
+  ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
   for (std::size_t index = 0; index < bench.seats.size(); ++index) {
-    ImGui::TableSetupColumn(seat_name(index).c_str(), ImGuiTableColumnFlags_WidthStretch, 0.8f);
+    ImGui::TableSetupColumn(seat_name(index).c_str(), ImGuiTableColumnFlags_WidthFixed, width);
   }
-  if (columns == 4) ImGui::TableSetupColumn("B - A", ImGuiTableColumnFlags_WidthStretch, 0.8f);
+  if (columns == 4) ImGui::TableSetupColumn("B - A", ImGuiTableColumnFlags_WidthFixed, width);
   ImGui::TableHeadersRow();
   for (const MetricInfo& info : metric_table()) metric_row(info, bench);
   ImGui::EndTable();

@@ -1,7 +1,6 @@
 #include "viewer/orbit.h"
 
 #include <algorithm>
-#include <array>
 
 namespace ramify {
 namespace {
@@ -13,15 +12,6 @@ constexpr double kFarthest = 1e4;
 
 // The near plane comes no nearer than this part of the distance: the depth buffer's floats reach that far.
 constexpr double kNearShare = 0.01;
-
-std::array<Vec3, 8> corners(const Box& box) {
-  std::array<Vec3, 8> result;
-  for (int index = 0; index < 8; ++index) {
-    result[index] = {index & 1 ? box.high.x : box.low.x, index & 2 ? box.high.y : box.low.y,
-                     index & 4 ? box.high.z : box.low.z};
-  }
-  return result;
-}
 
 /// Half of what is seen across and up, as tangents. Other than a picture's framing it depends on the height
 /// alone: a pane that is made wider shows more beside the tree and not less of it.
@@ -55,10 +45,14 @@ Orbit zoomed(Orbit orbit, double steps) {
   return orbit;
 }
 
-Orbit framed(Orbit orbit, const Box& box, double aspect) {
-  if (box.is_empty()) return orbit;
+Orbit framed(Orbit orbit, std::span<const Vec3> points, double aspect) {
+  if (points.empty()) return orbit;
   Framer framer({orbit.azimuth_deg, orbit.elevation_deg, orbit.is_parallel}, half_view(aspect), kMargin);
-  for (const Vec3& corner : corners(box)) framer.include(corner);
+  Box box;
+  for (const Vec3& point : points) {
+    framer.include(point);
+    box.include(point);
+  }
   const Camera camera = framer.camera(0.0);
   const Vec3 eye = framer.axes().coordinates(camera.eye);
   const double depth = framer.axes().coordinates(box.center()).z;

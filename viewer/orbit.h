@@ -1,6 +1,8 @@
 // A camera that circles a point, led by hand. Pure geometry, no OpenGL.
 #pragma once
 
+#include <span>
+
 #include "viewer/camera.h"
 
 namespace ramify {
@@ -27,8 +29,8 @@ Orbit panned(Orbit orbit, const glm::dvec2& drag, const glm::dvec2& size);
 /// Nearer by a fifth for each step, farther for each negative one; stays within a centimetre and 10 km.
 Orbit zoomed(Orbit orbit, double steps);
 
-/// With the distance, and the target, from which the box just fills a picture of this aspect.
-Orbit framed(Orbit orbit, const Box& box, double aspect);
+/// With the distance, and the target, from which the points just fill a picture of this aspect.
+Orbit framed(Orbit orbit, std::span<const Vec3> points, double aspect);
 
 /// The camera of a picture of this aspect that keeps all of the box between its near and far planes, and the
 /// ground up to `reach` metres around it. An empty box is a point at the target.

@@ -21,6 +21,12 @@ constexpr int kOutlineCells = 36;  // of a volume, along its longest side
 
 constexpr Color kPlain = color_of(0xd1495b);
 
+// Of layers with a mark a node, edge or voxel.
+constexpr float kVeil = 0.35f;
+
+// Of a voxel that its square takes up, each way: the voxels can be told apart.
+constexpr double kSquareShare = 0.94;
+
 /// From 0 to 1 between the least and the greatest of the values; 0.5 if they are all the same.
 template <class T>
 class Ramp {
@@ -58,6 +64,7 @@ Marks marks_of(const PointLayer& layer) {
 Marks marks_of(const LineLayer& layer) {
   Marks marks;
   marks.width = 1.0;
+  marks.opacity = kVeil;
   const Ramp<double> ramp(layer.values);
   for (std::size_t i = 0; i < layer.lines.size(); i += stride_of(layer.lines.size())) {
     const auto [from, to] = layer.lines[i];
@@ -70,6 +77,8 @@ Marks marks_of(const LineLayer& layer) {
 /// Arrows are as long as the points are apart on average, the longest of them.
 Marks marks_of(const VectorLayer& layer) {
   Marks marks;
+  marks.width = 1.0;
+  marks.opacity = kVeil;
   Box box;
   double longest = 0.0;
   for (std::size_t i = 0; i < layer.points.size(); ++i) {
@@ -85,19 +94,20 @@ Marks marks_of(const VectorLayer& layer) {
   return marks;
 }
 
-/// A cross in each voxel; the values by their logarithms, as they double from level to level.
+/// A square, or a point, in each voxel; the values by their logarithms, as they double from level to level.
 Marks marks_of(const VoxelLayer& layer, bool is_slice) {
   Marks marks;
   std::vector<float> logarithms;
   for (const float value : layer.values) logarithms.push_back(std::log(std::max(std::abs(value), 1e-12f)));
   const Ramp<float> ramp(logarithms);
-  marks.width = is_slice ? 5.0 : 3.0;
+  marks.width = 5.0;
+  marks.opacity = is_slice ? 0.85f : 0.5f * kVeil;
+  marks.square = is_slice ? kSquareShare * layer.voxel_size : 0.0;
   const std::size_t stride = is_slice ? 1 : stride_of(layer.voxels.size());
   for (std::size_t i = 0; i < layer.voxels.size(); i += stride) {
     if (is_slice && layer.voxels[i].z != 0) continue;
     const Vec3 at = Vec3(layer.voxels[i]) * layer.voxel_size;
-    const Vec3 half(is_slice ? 0.5 * layer.voxel_size : 0.0, 0.0, 0.0);
-    marks.add(at - half, at + half, ramp.color(logarithms[i]));
+    marks.add(at, at, ramp.color(logarithms[i]));
   }
   return marks;
 }
@@ -142,7 +152,9 @@ std::vector<std::string> overlay_names(const Job& job) {
   return names;
 }
 
-Overlay::Overlay() : line_("line", shaders::line_vertex(), shaders::line_fragment()) {}
+Overlay::Overlay()
+    : line_("line", shaders::line_vertex(), shaders::line_fragment()),
+      square_("square", shaders::square_vertex(), shaders::line_fragment()) {}
 
 void Overlay::load(const Product& product, const std::set<std::string>& names, bool are_slices) {
   batches_.clear();
@@ -152,6 +164,8 @@ void Overlay::load(const Product& product, const std::set<std::string>& names, b
     Batch& batch = batches_.emplace_back();
     batch.count = static_cast<int>(marks.starts.size());
     batch.width = marks.width;
+    batch.opacity = marks.opacity;
+    batch.square = marks.square;
     glBindVertexArray(batch.vertices.id());
     const auto attribute = [](unsigned location, GLint components, GLenum type) {
       glEnableVertexAttribArray(location);
@@ -173,14 +187,23 @@ void Overlay::draw(const Camera& camera, const Viewport& viewport) const {
   if (batches_.empty()) return;
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  line_.use();
-  line_.set("world_to_clip", glm::mat4(camera.world_to_clip()));
-  line_.set("viewport", Vec2f(viewport.width, viewport.height));
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_ZERO, GL_ONE);
   for (const Batch& batch : batches_) {
-    line_.set("half_width", static_cast<float>(batch.width / 2.0));
+    const GlProgram& program = batch.square > 0.0 ? square_ : line_;
+    program.use();
+    program.set("world_to_clip", glm::mat4(camera.world_to_clip()));
+    program.set("viewport", Vec2f(viewport.width, viewport.height));
+    program.set("half_width", static_cast<float>(viewport.fineness * batch.width / 2.0));
+    program.set("side", static_cast<float>(batch.square));
+    // Veils do not hide each other.
+    glDepthMask(batch.opacity < 1.0f ? GL_FALSE : GL_TRUE);
+    glBlendColor(0.0f, 0.0f, 0.0f, batch.opacity);
     glBindVertexArray(batch.vertices.id());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, batch.count);
   }
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
   glBindVertexArray(0);
 }
 

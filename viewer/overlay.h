@@ -19,12 +19,14 @@ namespace ramify {
 inline constexpr const char* kVolumes = "volumes";
 inline constexpr const char* kObstacles = "obstacles";
 
-/// Segments in the world; of no length: points.
+/// Segments in the world, of no length: points; or squares.
 struct Marks {
-  std::vector<Vec3f> starts;
+  std::vector<Vec3f> starts;  // of squares the middles
   std::vector<Vec3f> ends;
   std::vector<ColorBytes> colors;
-  double width = 1.5;  // pixels
+  double width = 1.5;    // pixels of the picture
+  float opacity = 1.0f;  // many marks are thin veils: what is behind them shows through
+  double square = 0.0;   // metres, a side, facing +Z; 0: segments
 
   void add(const Vec3& start, const Vec3& end, const Color& color);
 };
@@ -56,9 +58,12 @@ class Overlay {
     GlBuffer colors;
     int count = 0;
     double width = 1.0;
+    float opacity = 1.0f;
+    double square = 0.0;
   };
 
   GlProgram line_;
+  GlProgram square_;
   std::vector<Batch> batches_;
 };
 

@@ -36,6 +36,8 @@ constexpr Color kInk = color_of(0x2b2b2b);
 constexpr Color kPlaster = color_of(0xc9c3b8);
 constexpr Color kPale = color_of(0xdcdcd8);
 
+constexpr double kLineWidth = 1.5;  // of the style skeleton, pixels of the picture
+
 // The ground fades out this far from the tree, in parts of the tree's size.
 constexpr double kGroundReach = 3.5;
 
@@ -372,7 +374,7 @@ void Painter::draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewpo
   line_.use();
   line_.set("world_to_clip", moved(world_to_clip, tree_.origin));
   line_.set("viewport", Vec2f(viewport.width, viewport.height));
-  line_.set("half_width", static_cast<float>(viewport.line_width / 2.0));
+  line_.set("half_width", static_cast<float>(viewport.fineness * kLineWidth / 2.0));
   glBindVertexArray(tree_.vertices.id());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tree_.count);
 }

@@ -23,7 +23,7 @@ struct Viewport {
   int height = 0;
   glm::dvec2 low{0.0};  // lower left corner in the whole picture, which runs from 0 to 1
   glm::dvec2 high{1.0};
-  double line_width = 1.5;  // of the style skeleton, pixels
+  double fineness = 1.0;  // pixels of the framebuffer for one of the picture, in which lines are measured
 };
 
 class Painter {

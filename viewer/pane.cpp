@@ -18,9 +18,13 @@ constexpr double kQuick = 0.012;
 
 constexpr int kShadowMapSize = 2048;
 
-// A picture at rest has this many samples a pixel.
-constexpr Sampling kAtRest{.fineness = 1, .samples = 4};
 constexpr Sampling kMoving{.fineness = 1, .samples = 1};
+constexpr Sampling kAtRest{.fineness = 1, .samples = 4};
+
+constexpr Sampling kFinest{.fineness = 2, .samples = 4};
+
+// Seconds that kAtRest may take for kFinest to come after it: the window is not to stand still.
+constexpr double kQuickAtRest = 0.08;
 
 /// The sun stays where it is while the viewer walks around.
 CameraAxes sun() {
@@ -68,8 +72,8 @@ void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show)
 }
 
 unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
-                       int width, int height, bool is_fast) {
-  is_stale_ = is_stale_ || loaded_.size() != exhibits.size() || orbit_ != orbit || is_fast_ != is_fast;
+                       int width, int height, Quality quality) {
+  is_stale_ = is_stale_ || loaded_.size() != exhibits.size() || orbit_ != orbit || quality_ != quality;
   loaded_.resize(exhibits.size());
   Box box;
   for (std::size_t index = 0; index < exhibits.size(); ++index) {
@@ -85,21 +89,27 @@ unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& 
     is_stale_ = true;
   }
   box_ = box;
-  const int shrink = is_fast ? shrink_ : 1;
+  const int shrink = quality == Quality::moving ? shrink_ : 1;
   width = std::max(1, width / shrink);
   height = std::max(1, height / shrink);
-  if (!target_ || width_ != width || height_ != height || is_fast_ != is_fast) {
-    target_.reset();
-    target_ = std::make_unique<RenderTarget>(width, height, is_fast ? kMoving : kAtRest);
-    width_ = width;
-    height_ = height;
-    is_stale_ = true;
-  }
-  is_fast_ = is_fast;
+  is_stale_ = is_stale_ || width_ != width || height_ != height;
+  width_ = width;
+  height_ = height;
+  quality_ = quality;
   orbit_ = orbit;
-  if (is_stale_) draw(orbit);
+  if (is_stale_) draw_anew();
   is_stale_ = false;
   return target_->picture().id();
+}
+
+void Pane::draw_anew() {
+  if (quality_ == Quality::moving) {
+    const double seconds = draw(kMoving);
+    if (seconds > kSlow) shrink_ = 2;
+    if (seconds < kQuick) shrink_ = 1;
+  } else if (quality_ == Quality::finest || draw(kAtRest) < kQuickAtRest) {
+    draw(kFinest);
+  }
 }
 
 Image Pane::image() const {
@@ -120,27 +130,31 @@ void Pane::stand_figure(Loaded& loaded, const Orbit& orbit) const {
   const CameraAxes axes = camera_axes(orbit.azimuth_deg, 0.0);
   const Vec3 origin = axes.coordinates(loaded.base);
   Box extent;
-  for (int corner = 0; corner < 8; ++corner) {
-    extent.include(
-        axes.coordinates({corner & 1 ? box_.high.x : box_.low.x, corner & 2 ? box_.high.y : box_.low.y,
-                          corner & 4 ? box_.high.z : box_.low.z}));
-  }
+  for (const Vec3& corner : corners(box_)) extent.include(axes.coordinates(corner));
   loaded.painter.load_annotations(
       make_annotations(glm::dvec2(extent.low - origin), glm::dvec2(extent.high - origin)), loaded.base, axes);
 }
 
-void Pane::draw(const Orbit& orbit) {
+/// Returns the seconds it took.
+double Pane::draw(const Sampling& sampling) {
+  if (!target_ || target_width_ != width_ || target_height_ != height_ || target_->sampling() != sampling) {
+    target_.reset();
+    target_ = std::make_unique<RenderTarget>(width_, height_, sampling);
+    target_width_ = width_;
+    target_height_ = height_;
+  }
   const auto start = std::chrono::steady_clock::now();
   const double aspect = static_cast<double>(width_) / height_;
   double reach = 0.0;
   for (const auto& loaded : loaded_) reach = std::max(reach, loaded->painter.reach());
   for (const auto& loaded : loaded_) {
-    if (loaded->show.with_scale && loaded == loaded_.front()) stand_figure(*loaded, orbit);
+    if (loaded->show.with_scale && loaded == loaded_.front()) stand_figure(*loaded, orbit_);
   }
-  const Camera camera = camera_of(orbit, aspect, box_, reach);
+  const Camera camera = camera_of(orbit_, aspect, box_, reach);
   Viewport viewport;
-  viewport.width = width_;
-  viewport.height = height_;
+  viewport.width = sampling.fineness * width_;
+  viewport.height = sampling.fineness * height_;
+  viewport.fineness = sampling.fineness;
   target_->begin();
   for (std::size_t index = 0; index < loaded_.size(); ++index) {
     if (index == 0) {
@@ -155,12 +169,8 @@ void Pane::draw(const Orbit& orbit) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!is_fast_) return;
-
   glFinish();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (seconds > kSlow) shrink_ = 2;
-  if (seconds < kQuick) shrink_ = 1;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace ramify

@@ -21,22 +21,25 @@ struct Exhibit {
   std::optional<Color> tint;  // to tell two in one picture apart
 };
 
+/// How finely a picture is drawn.
+enum class Quality {
+  moving,   // soon: no antialiasing, on a slow device with half the pixels each way
+  at_rest,  // finest, where that takes no longer than a blink
+  finest,
+};
+
 class Pane {
  public:
-  /// Draws into a texture of its own, of width x height pixels: kept if nothing changed. `is_fast`: without
-  /// antialiasing, for as long as something moves. Returns the texture's OpenGL name, its rows bottom first.
-  /// Needs a current context. Throws GraphicsError.
+  /// Draws into a texture of its own, of width x height pixels: kept if nothing changed. Returns the
+  /// texture's OpenGL name, its rows bottom first. Needs a current context. Throws GraphicsError.
   unsigned picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
-                   int width, int height, bool is_fast);
+                   int width, int height, Quality quality);
 
   /// Width over height of the last picture.
   double aspect() const { return height_ > 0 ? static_cast<double>(width_) / height_ : 1.0; }
 
   /// The last picture, read back.
   Image image() const;
-
-  /// Around all that was drawn.
-  const Box& box() const { return box_; }
 
   /// A sentence on what could not be shown as asked for; empty if all could.
   const std::string& notice() const { return notice_; }
@@ -53,14 +56,17 @@ class Pane {
   };
 
   void load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show);
-  void draw(const Orbit& orbit);
+  void draw_anew();
+  double draw(const Sampling& sampling);
   void stand_figure(Loaded& loaded, const Orbit& orbit) const;
 
   std::vector<std::unique_ptr<Loaded>> loaded_;
   std::unique_ptr<RenderTarget> target_;
+  int target_width_ = 0;
+  int target_height_ = 0;
   int width_ = 0;
   int height_ = 0;
-  bool is_fast_ = false;
+  Quality quality_ = Quality::at_rest;
   int shrink_ = 1;  // the picture's pixels for one of the texture, each way, while something moves
   Orbit orbit_;
   bool is_stale_ = true;

@@ -12,6 +12,8 @@ inline constexpr int kSupersampling = 2;
 struct Sampling {
   int fineness = kSupersampling;  // pixels drawn for one of the picture, each way: 1 or 2
   int samples = 4;                // within each of these, as far as OpenGL can; 1: no more than itself
+
+  bool operator==(const Sampling&) const = default;
 };
 
 /// A half-float framebuffer with several samples a pixel, and the means to reduce it to 8 bits.
@@ -19,6 +21,8 @@ class RenderTarget {
  public:
   /// For pictures up to width x height. Throws GraphicsError if OpenGL cannot draw into such a target.
   RenderTarget(int width, int height, Sampling sampling = {});
+
+  const Sampling& sampling() const { return sampling_; }
 
   /// Makes the target what is drawn into. It has `fineness` times the picture's pixels each way.
   void begin();

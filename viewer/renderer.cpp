@@ -35,10 +35,7 @@ void include_obstacles(const Scene& scene, const RenderOptions& options, Framer&
   for (const Vec3f& point : options.room_for) tree.include(Vec3(point));
   const Box room = obstacle_room(*scene.obstacles, tree);
   if (room.is_empty()) return;
-  for (int corner = 0; corner < 8; ++corner) {
-    framer.include({corner & 1 ? room.high.x : room.low.x, corner & 2 ? room.high.y : room.low.y,
-                    corner & 4 ? room.high.z : room.low.z});
-  }
+  for (const Vec3& corner : corners(room)) framer.include(corner);
 }
 
 void include_scene(const Scene& scene, const RenderOptions& options, Framer& framer) {
@@ -105,7 +102,7 @@ Image Renderer::Implementation::draw(const Camera& camera, const RenderOptions& 
       viewport.height = kSupersampling * part_height;
       viewport.low = glm::dvec2(x, y) / size;
       viewport.high = glm::dvec2(x + part_width, y + part_height) / size;
-      viewport.line_width = kSupersampling * 1.5;
+      viewport.fineness = kSupersampling;
       target->begin();
       painter.draw(camera, viewport);
 
@@ -157,7 +154,6 @@ Image Renderer::render(const Scene& scene, const RenderOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
   Framer framer(view, aspect, kMargin);
   include_scene(scene, options, framer);
-  for (const Vec3f& point : options.room_for) framer.include(Vec3(point));
   if (options.with_scale) {
     const Vec3 base = base_of(scene);
     const Vec3 origin = framer.axes().coordinates(base);

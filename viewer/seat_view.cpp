@@ -53,6 +53,26 @@ std::string caption(const Workbench& bench, std::size_t index) {
   return text;
 }
 
+/// What stands in the corner of a picture: its tree, or both in one, each with its colour.
+float show_captions(const Workbench& bench, std::size_t index, ImVec2 at) {
+  constexpr ImU32 kText = IM_COL32(228, 228, 230, 255);
+  const float line = ImGui::GetTextLineHeight() + 8.0f;
+  if (bench.show.arrangement == Arrangement::side_by_side) {
+    label(at, caption(bench, index), kText);
+    return at.y + line;
+  }
+  const float swatch = ImGui::GetTextLineHeight();
+  for (std::size_t seat = 0; seat < bench.seats.size(); ++seat) {
+    const Color& tint = seat == 0 ? kFirstTint : kSecondTint;
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {at.x - 5.0f, at.y - 2.0f}, {at.x + swatch, at.y + swatch + 2.0f},
+        ImGui::ColorConvertFloat4ToU32({tint.r, tint.g, tint.b, 1.0f}), 3.0f);
+    label({at.x + swatch + 10.0f, at.y}, caption(bench, seat), kText);
+    at.y += line;
+  }
+  return at.y;
+}
+
 /// Orbit, pan, zoom and frame by the mouse on the item that was made last.
 void lead_camera(Workbench& bench, std::size_t index, const ImVec2& size) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -89,7 +109,7 @@ void frame_first(Workbench& bench, Seat& seat, double aspect) {
   const Product* product = seat.document.product();
   if (seat.is_framed || product == nullptr || product->box.is_empty()) return;
   seat.is_framed = true;
-  seat.orbit = framed(seat.orbit, product->box, aspect);
+  seat.orbit = framed(seat.orbit, framing_points(*product), aspect);
   if (bench.is_same_scale) equalize_scales(bench);
 }
 
@@ -109,9 +129,11 @@ void show_picture(Workbench& bench, std::size_t index, const ImVec2& size) {
   Orbit orbit = seat.orbit;
   orbit.is_parallel = bench.show.style != RenderStyle::lit;
   const double pixels = bench.window.pixels_per_unit();
-  const unsigned texture =
-      seat.pane.picture(exhibits, bench.show, orbit, std::max(1, static_cast<int>(size.x * pixels)),
-                        std::max(1, static_cast<int>(size.y * pixels)), bench.is_drawn_fast);
+  // Pictures that a test compares do not depend on how busy the machine is.
+  const Quality at_rest = bench.report.is_on() ? Quality::finest : Quality::at_rest;
+  const unsigned texture = seat.pane.picture(
+      exhibits, bench.show, orbit, std::max(1, static_cast<int>(size.x * pixels)),
+      std::max(1, static_cast<int>(size.y * pixels)), bench.is_drawn_fast ? Quality::moving : at_rest);
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture)),
                                        low, plus(low, size), {0.0f, 1.0f}, {1.0f, 0.0f});
 }
@@ -125,9 +147,8 @@ void show_state(Workbench& bench, std::size_t index, const ImVec2& low, const Im
                        ImGui::GetColorU32(ImGuiCol_PlotHistogram));
   }
   const ImVec2 corner(low.x + 12.0f, low.y + 10.0f);
-  label(corner, caption(bench, index), IM_COL32(228, 228, 230, 255));
   const float line = ImGui::GetTextLineHeight() + 8.0f;
-  float y = corner.y + line;
+  float y = show_captions(bench, index, corner);
   const auto tell = [&](const std::string& text, ImU32 color) {
     if (text.empty()) return;
     label({corner.x, y}, text, color);

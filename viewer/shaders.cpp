@@ -345,6 +345,21 @@ void main() {
 )";
 }
 
+std::string square_vertex() {
+  return std::string(kDecode) + R"(
+layout(location = 0) in vec3 middle;
+layout(location = 2) in vec4 color;
+uniform mat4 world_to_clip;
+uniform float side;  // metres
+out vec3 paint;
+void main() {
+  paint = linear_of(color.rgb);
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) - 0.5;
+  gl_Position = world_to_clip * vec4(middle + side * vec3(corner, 0.0), 1.0);
+}
+)";
+}
+
 std::string line_fragment() {
   return R"(
 in vec3 paint;

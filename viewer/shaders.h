@@ -26,8 +26,9 @@ std::string lit_fragment();
 std::string ground_vertex();
 std::string ground_fragment();
 
-/// Internodes as strips that face the viewer.
+/// Segments as strips that face the viewer, and squares that face +Z.
 std::string line_vertex();
+std::string square_vertex();
 std::string line_fragment();
 
 }  // namespace ramify::shaders

@@ -57,6 +57,7 @@ void write_filter(Workbench& bench) {
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::InputTextWithHint("##filter", "find a parameter", text.data(), text.size())) {
     panel.filter = text.data();
+    bench.report.say("FILTER " + panel.filter);
   }
   bench.report.add("filter");
 }

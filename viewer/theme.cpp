@@ -2,22 +2,14 @@
 
 #include <imgui.h>
 
-#include <array>
 #include <filesystem>
+
+#include "common/base/letters.h"
 
 namespace ramify {
 namespace {
 
 constexpr float kFontSize = 15.0f;
-
-// In order of preference; Debian's packages fonts-dejavu-core, fonts-noto-core and fonts-liberation.
-constexpr std::array kFonts = {
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-    "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf",
-    "/usr/share/fonts/TTF/DejaVuSans.ttf",
-};
 
 ImVec4 grey(float level, float alpha = 1.0f) {
   return {level, level, level * 1.03f, alpha};
@@ -100,10 +92,8 @@ std::string apply_theme(double scale) {
 
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   const float size = kFontSize * static_cast<float>(scale);
-  for (const char* path : kFonts) {
-    std::error_code error;
-    if (std::filesystem::exists(path, error) && fonts.AddFontFromFileTTF(path, size)) return {};
-  }
+  const std::filesystem::path font = installed_font();
+  if (!font.empty() && fonts.AddFontFromFileTTF(font.c_str(), size)) return {};
   ImFontConfig coarse;
   coarse.SizePixels = 13.0f * static_cast<float>(scale);
   fonts.AddFontDefault(&coarse);

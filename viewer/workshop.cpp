@@ -53,6 +53,19 @@ std::uint64_t new_serial() {
   return ++last;
 }
 
+std::vector<Vec3> framing_points(const Product& product) {
+  std::vector<Vec3> points;
+  Box tree;
+  for (const Vec3f& position : product.mesh.positions) {
+    points.emplace_back(position);
+    tree.include(points.back());
+  }
+  if (const Box room = obstacle_room(product.obstacles, tree); !room.is_empty()) {
+    for (const Vec3& corner : corners(room)) points.push_back(corner);
+  }
+  return points;
+}
+
 void dress(Product& product, const Order& order) {
   const double start = now_seconds();
   product.last_step = last_step(product.run->skeleton);

@@ -98,6 +98,9 @@ class Workshop {
   std::jthread thread_;  // last: it uses all of the others
 };
 
+/// What a picture of the tree is to hold: the tree, and obstacles near it.
+std::vector<Vec3> framing_points(const Product& product);
+
 /// The tree of an order as it is to be shown: cut, meshed, and, unless it is a draft, with its sky light. Of
 /// the mesh that product has, the memory is used again.
 void dress(Product& product, const Order& order);

@@ -117,9 +117,11 @@ std::string figure(const Picture& picture, const std::string& caption, const std
       picture.width > 0 ? fmt::format(" width=\"{}\" height=\"{}\"", picture.width, picture.height) : "";
   const std::string made_by =
       command.empty() ? "" : fmt::format("<code class=\"command\">{}</code>", html_text(command));
-  return fmt::format("<figure><img src=\"{}\" alt=\"{}\"{}><figcaption>{}{}</figcaption></figure>\n",
-                     data_url(picture.media_type, picture.bytes), html_text(picture.alternative), size,
-                     caption, made_by);
+  std::string image =
+      fmt::format("<img src=\"{}\" alt=\"{}\"{}>", data_url(picture.media_type, picture.bytes),
+                  html_text(picture.alternative), size);
+  if (!picture.link.empty()) image = fmt::format("<a href=\"{}\">{}</a>", html_text(picture.link), image);
+  return fmt::format("<figure>{}<figcaption>{}{}</figcaption></figure>\n", image, caption, made_by);
 }
 
 std::string table(const std::string& caption, const std::vector<std::vector<std::string>>& rows,

@@ -19,6 +19,7 @@ struct Picture {
   std::string alternative;  // what it shows, in words
   int width = 0;            // pixels that it takes on the page; 0: those of the file
   int height = 0;
+  std::string link = {};  // where a click on it leads; empty: nowhere
 };
 
 /// A picture with its caption and the command line that makes it, if any. `caption` is HTML.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Series {
   std::string label;
   std::vector<double> x;
   std::vector<double> y;
+  std::vector<double> deviation = {};  // of y, drawn as bars up and down; of points only, may be empty
 };
 
 struct Plot {
@@ -29,15 +31,28 @@ struct Plot {
   double x_high = 0.0;
   bool is_x_logarithmic = false;
   bool is_y_logarithmic = false;
-  std::vector<Series> series;  // drawn in colours and dashes that tell eight apart
+  std::vector<Series> series;             // drawn in colours and dashes that tell eight apart
+  std::vector<std::string> x_names = {};  // what stands at x = 0, 1, ... in place of numbers; may be empty
+};
+
+/// A coloured cell for each pair of values, with its number where there is room.
+struct HeatMap {
+  std::string name;  // of its files, without ending
+  std::string label;
+  std::string x_label;
+  std::string y_label;
+  std::vector<std::string> x_names;           // from left to right
+  std::vector<std::string> y_names;           // from the bottom up
+  std::vector<std::optional<double>> values;  // row by row: y is the same for a row
 };
 
 /// Whether there is a gnuplot to draw with.
 bool has_gnuplot();
 
-/// Draws NAME.svg and NAME.png of each plot into `folder`. The SVG has no background of its own and takes
-/// light ink on pages that are dark. Throws RunError with gnuplot's words if it fails.
+/// Draws NAME.svg and NAME.png of each plot into `folder`, which is there. The SVG has no background of its
+/// own and takes light ink on pages that are dark. Throws RunError with gnuplot's words if it fails.
 void draw_plots(std::span<const Plot> plots, const std::filesystem::path& folder);
+void draw_heat_maps(std::span<const HeatMap> maps, const std::filesystem::path& folder);
 
 /// The colour of the i-th series, "#rrggbb", for legends beside plots (after Okabe and Ito 2008, told apart
 /// by the colour-blind too).

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "cli/experiment/sweep_plan.h"
@@ -49,16 +50,47 @@ class HalfFolder {
   fs::path path_;
 };
 
+std::string machine() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+/// Process ids tell apart only what one machine writes.
+fs::path half_folder(const fs::path& runs, const std::string& name) {
+  return runs / fmt::format(".{}.{}.{}.tmp", name, machine(), getpid());
+}
+
 fs::path failure_file(const fs::path& runs, const std::string& name) {
   return runs / (name + ".failed");
 }
 
+/// Of the wood, to twice its width: a foot may flare.
+Box extent_of(const Skeleton& tree) {
+  Box box;
+  for (std::size_t node = 0; node < tree.position.size(); ++node) {
+    box.include(tree.position[node] - Vec3(tree.diameter[node]));
+    box.include(tree.position[node] + Vec3(tree.diameter[node]));
+  }
+  return box;
+}
+
+nlohmann::json numbers_of(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Vec3 vector_of(const nlohmann::json& numbers) {
+  return {numbers.at(0), numbers.at(1), numbers.at(2)};
+}
+
 std::string record_text(const Skeleton& tree, double seconds, std::uint64_t peak_memory_bytes,
                         const std::vector<std::string>& warnings) {
+  const Box extent = extent_of(tree);
   const nlohmann::ordered_json object = {{"version", version()},
                                          {"seconds", seconds},
                                          {"peak_memory_bytes", peak_memory_bytes},
                                          {"warnings", warnings},
+                                         {"extent", {numbers_of(extent.low), numbers_of(extent.high)}},
                                          {"metrics", metrics_json(measure(tree))}};
   return object.dump(1) + "\n";
 }
@@ -71,6 +103,7 @@ RunRecord record_of(const nlohmann::json& object) {
   }
   record.seconds = object.at("seconds");
   record.peak_memory_bytes = object.at("peak_memory_bytes");
+  record.extent = {vector_of(object.at("extent").at(0)), vector_of(object.at("extent").at(1))};
   record.warnings = object.at("warnings").get<std::vector<std::string>>();
   return record;
 }
@@ -81,7 +114,7 @@ void write_run(const fs::path& runs, const Job& job, const Skeleton& tree, doubl
                std::uint64_t peak_memory_bytes, const std::vector<std::string>& warnings) {
   const std::string config = to_toml(job);
   const std::string name = run_name(config);
-  HalfFolder folder(runs / fmt::format(".{}.{}.tmp", name, getpid()));
+  HalfFolder folder(half_folder(runs, name));
   OutputFiles files;
   files.add(folder.path() / kRunConfig) << config;
   write_skeleton(tree, SkeletonForm::ply, provenance_of(job), files.add(folder.path() / kRunTree));
@@ -125,7 +158,8 @@ void remove_leftovers(const fs::path& runs) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(runs, error)) {
     const std::string name = entry.path().filename().string();
-    if (name.front() == '.' && name.ends_with(".tmp")) fs::remove_all(entry.path(), error);
+    const bool is_others = entry.is_directory() && name.find("." + machine() + ".") == std::string::npos;
+    if (name.front() == '.' && name.ends_with(".tmp") && !is_others) fs::remove_all(entry.path(), error);
   }
 }
 

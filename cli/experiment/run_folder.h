@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/geometry.h"
 #include "common/config/job.h"
 
 namespace ramify::cli {
@@ -17,6 +18,7 @@ struct RunRecord {
   std::vector<std::optional<double>> metrics;  // in the order of metric_table()
   double seconds = 0.0;                        // that the engine took
   std::uint64_t peak_memory_bytes = 0;
+  Box extent;                         // of the wood, metres
   std::vector<std::string> warnings;  // a limit that it stopped at, for instance
 };
 
@@ -38,7 +40,8 @@ void write_failure(const std::filesystem::path& runs, const std::string& name, c
 std::optional<std::string> read_failure(const std::filesystem::path& runs, const std::string& name);
 void forget_failure(const std::filesystem::path& runs, const std::string& name);
 
-/// Removes what killed processes left half-written. Nobody may be making runs there.
+/// Removes what killed processes of this machine left half-written. None of its processes may be making runs
+/// there; those of others may.
 void remove_leftovers(const std::filesystem::path& runs);
 
 }  // namespace ramify::cli

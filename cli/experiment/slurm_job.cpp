@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "cli/experiment/process.h"
@@ -38,8 +39,7 @@ std::string script_text(const fs::path& sweep, const fs::path& folder, std::size
   text += fmt::format(
       "exec {} sweep-task {} -o {} --slice \"$SLURM_ARRAY_TASK_ID\" --slices {} "
       "--threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
-      shell_quoted(program), shell_quoted((folder / kPlan).string()), shell_quoted((sweep / "runs").string()),
-      slices);
+      shell_quoted(program), shell_quoted((folder / kPlan).string()), shell_quoted(sweep.string()), slices);
   return text;
 }
 
@@ -55,19 +55,31 @@ std::string one_line(std::string text) {
   return text;
 }
 
-}  // namespace
-
-fs::path slurm_folder(const fs::path& sweep, const SweepPlan& plan) {
+/// The same for the same runs.
+fs::path job_folder(const fs::path& sweep, const SweepPlan& plan) {
   std::string names;
   for (const PlannedRun& run : plan.runs) names += run.name + "\n";
   return sweep / "slurm" / digest_of(names);
 }
 
+/// The last job that was submitted for the plan.
+std::optional<SlurmJob> submitted(const fs::path& sweep, const SweepPlan& plan) {
+  const fs::path folder = job_folder(sweep, plan);
+  std::error_code error;
+  if (!fs::is_regular_file(folder / kJob, error)) return std::nullopt;
+  const nlohmann::json object = nlohmann::json::parse(read_file(folder / kJob), nullptr, false);
+  if (!object.is_object()) return std::nullopt;
+  return SlurmJob{object.value("job", ""), object.value("slices", std::size_t{1}),
+                  object.value("tasks", std::size_t{1}), folder};
+}
+
+}  // namespace
+
 SlurmJob submit(const SweepPlan& plan, std::span<const std::size_t> runs, const fs::path& sweep,
                 const SlurmOptions& options) {
   const fs::path shared = fs::absolute(sweep).lexically_normal();
   SlurmJob job;
-  job.folder = slurm_folder(shared, plan);
+  job.folder = job_folder(shared, plan);
   const std::size_t most = options.tasks > 0 ? static_cast<std::size_t>(options.tasks) : kUsualTasks;
   std::size_t families = 1;
   for (const PlannedRun& run : plan.runs) families = std::max(families, run.family + 1);
@@ -101,14 +113,18 @@ SlurmJob submit(const SweepPlan& plan, std::span<const std::size_t> runs, const 
   return job;
 }
 
-std::optional<SlurmJob> submitted(const fs::path& sweep, const SweepPlan& plan) {
-  const fs::path folder = slurm_folder(sweep, plan);
-  std::error_code error;
-  if (!fs::is_regular_file(folder / kJob, error)) return std::nullopt;
-  const nlohmann::json object = nlohmann::json::parse(read_file(folder / kJob), nullptr, false);
-  if (!object.is_object()) return std::nullopt;
-  return SlurmJob{object.value("job", ""), object.value("slices", std::size_t{1}),
-                  object.value("tasks", std::size_t{1}), folder};
+std::string missing_text(const SweepResults& results, const fs::path& sweep) {
+  const SweepPlan& plan = results.plan;
+  std::vector<std::size_t> missing = unfinished(results);
+  std::erase_if(missing, [&](std::size_t run) { return !results.rows[run].failure.empty(); });
+  std::string text = fmt::format("{} of {} runs are missing", missing.size(), plan.runs.size());
+  if (const auto job = submitted(sweep, plan)) {
+    std::set<std::size_t> tasks;
+    for (const std::size_t run : missing) tasks.insert(slice_of(plan.runs[run], job->slices));
+    text += fmt::format(", of job {}'s tasks {} (`squeue --job {}` tells whether they run; logs: {})",
+                        job->id, fmt::join(tasks, ", "), job->id, (job->folder / "task-K.log").string());
+  }
+  return text + fmt::format("; `{}` makes them here, --slurm there", plan.command);
 }
 
 }  // namespace ramify::cli

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 
 #include "cli/experiment/sweep_plan.h"
+#include "cli/experiment/sweep_results.h"
 
 namespace ramify::cli {
 
@@ -28,16 +28,15 @@ struct SlurmJob {
   std::filesystem::path folder;  // plan.json, job.sh, job.json; task-K.log of each task
 };
 
-/// The place of a plan's job below the sweep's folder; the same for the same runs.
-std::filesystem::path slurm_folder(const std::filesystem::path& sweep, const SweepPlan& plan);
-
-/// Writes the job of these runs (indices, at least one) into slurm_folder() and hands it to sbatch. The
+/// Writes the job of these runs (indices, at least one) below the sweep's folder, into a place that is the
+/// same for the same plan, and hands it to sbatch. The
 /// sweep's folder must be one that all machines share. Throws RunError if there is no sbatch or it fails,
 /// with its words; IoError.
 SlurmJob submit(const SweepPlan& plan, std::span<const std::size_t> runs, const std::filesystem::path& sweep,
                 const SlurmOptions& options);
 
-/// The last job that was submitted for the plan; nothing if there was none.
-std::optional<SlurmJob> submitted(const std::filesystem::path& sweep, const SweepPlan& plan);
+/// A line about runs that are missing, at least one: how many, of which tasks of the last job that was
+/// submitted, if there was one, and how they can be had.
+std::string missing_text(const SweepResults& results, const std::filesystem::path& sweep);
 
 }  // namespace ramify::cli

@@ -31,6 +31,11 @@ bool is_of_sweep(const fs::path& folder) {
   return fs::is_regular_file(folder / kPlanFile, error) && is_plan(read_file(folder / kPlanFile));
 }
 
+/// A file descriptor to lock by; -1 if it cannot be had.
+int open_folder(const fs::path& folder) {
+  return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
 }  // namespace
 
 SweepFolder::SweepFolder(const fs::path& path) : path_(path) {
@@ -52,8 +57,13 @@ SweepFolder::~SweepFolder() {
   if (lock_ >= 0) close(lock_);
 }
 
+void SweepFolder::join() {
+  lock_ = open_folder(path_);
+  static_cast<void>(flock(lock_, LOCK_SH | LOCK_NB));
+}
+
 void SweepFolder::lock() {
-  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  lock_ = open_folder(path_);
   if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     throw RunError(fmt::format("{}: another `ramify sweep` is at work there", path_.string()));
   }

@@ -24,6 +24,10 @@ class SweepFolder {
   /// Throws RunError if one is at work there.
   void lock();
 
+  /// Keeps the sweeps of this machine that would lock() out while this object lives, unless one is at work
+  /// there; any number may join.
+  void join();
+
   /// Writes a file; `name` is relative and may lie in a sub-folder. Throws IoError.
   void write(const std::filesystem::path& name, const std::string& bytes) const;
 

@@ -29,14 +29,86 @@ Color color_of_kind(BarkKind kind, double diameter) {
   }
 }
 
-/// `color` so that a texture of `mean_shade` over it comes out like it.
-ColorBytes tint(const Color& color, double mean_shade) {
-  const auto byte = [mean_shade](float encoded) {
-    const float light = std::min(linear_of(encoded) / static_cast<float>(mean_shade), 1.0f);
-    return static_cast<std::uint8_t>(std::lround(255.0f * encoded_of(light)));
+/// `color`, encoded, so that a texture of `mean_shade` over it comes out like it.
+Vec3f tint(const Color& color, double mean_shade) {
+  const auto part = [mean_shade](float encoded) {
+    return encoded_of(std::min(linear_of(encoded) / static_cast<float>(mean_shade), 1.0f));
   };
-  return {byte(color.r), byte(color.g), byte(color.b), 255};
+  return {part(color.r), part(color.g), part(color.b)};
 }
+
+// In radii of a lateral: so far beyond its parent's surface it has its own colour.
+constexpr float kOwnColor = 3.0f;
+
+// What a metre along the parent counts beside one away from it.
+constexpr float kAlongside = 0.4f;
+
+/// How the bark's colour changes over the wood: evenly along an axis, and at a fork from the parent's to the
+/// lateral's.
+class BarkColors {
+ public:
+  BarkColors(const Skeleton& skeleton, BarkKind kind, double mean_shade) : nodes_(skeleton.node_count()) {
+    for (std::size_t node = 0; node < nodes_.size(); ++node) {
+      Node& own = nodes_[node];
+      own.color = tint(color_of_kind(kind, skeleton.diameter[node]), mean_shade);
+      own.position = Vec3f(skeleton.position[node]);
+      if (skeleton.is_root(node)) continue;
+      const std::uint32_t parent = skeleton.parent[node];
+      own.parent = parent;
+      const bool goes_on = skeleton.is_root(parent) || skeleton.axis[parent] == skeleton.axis[node];
+      own.fork = goes_on ? nodes_[parent].fork : parent;
+      own.fork_along =
+          goes_on ? nodes_[parent].fork_along
+                  : Vec3f(normalized_or(
+                        Vec3(nodes_[parent].position - nodes_[nodes_[parent].parent].position), kUp));
+      own.fork_radius =
+          goes_on ? nodes_[parent].fork_radius : static_cast<float>(0.5 * skeleton.diameter[parent]);
+      own.fork_end = goes_on ? nodes_[parent].fork_end
+                             : static_cast<float>(0.5 * skeleton.diameter[parent]) +
+                                   kOwnColor * static_cast<float>(0.5 * skeleton.diameter[node]);
+    }
+  }
+
+  ColorBytes at(std::uint32_t internode, const Vec3f& point) const {
+    const Node& own = nodes_[internode];
+    if (own.parent == kNoParent) return bytes_of(own.color);
+    const Node& below = nodes_[own.parent];
+    Vec3f color = own.color;
+    if (own.parent != own.fork) {
+      const Vec3f along = own.position - below.position;
+      const float length2 = std::max(glm::dot(along, along), 1e-12f);
+      color = glm::mix(below.color, own.color,
+                       std::clamp(glm::dot(point - below.position, along) / length2, 0.0f, 1.0f));
+    }
+    if (own.fork != kNoParent) {
+      const Node& fork = nodes_[own.fork];
+      const Vec3f apart = point - fork.position;
+      const float aside = glm::length(apart - own.fork_along * glm::dot(apart, own.fork_along));
+      // A lateral that runs alongside its parent gets its own colour, too, if later.
+      const float distance = std::max(aside, kAlongside * glm::length(apart));
+      color = glm::mix(fork.color, color, glm::smoothstep(own.fork_radius, own.fork_end, distance));
+    }
+    return bytes_of(color);
+  }
+
+ private:
+  struct Node {
+    Vec3f color{0.0f};  // encoded, 0 to 1
+    Vec3f position{0.0f};
+    std::uint32_t parent = kNoParent;
+    std::uint32_t fork = kNoParent;  // the node at which the axis leaves another
+    Vec3f fork_along{0.0f};          // unit, of the wood there
+    float fork_radius = 0.0f;        // metres
+    float fork_end = 0.0f;           // so far from the wood's middle the axis has its own colour, metres
+  };
+
+  static ColorBytes bytes_of(const Vec3f& color) {
+    const auto byte = [](float part) { return static_cast<std::uint8_t>(255.0f * part + 0.5f); };
+    return {byte(color.r), byte(color.g), byte(color.b), 255};
+  }
+
+  std::vector<Node> nodes_;
+};
 
 /// How often the texture stands around the wood at each node: as often as fits the girth where its axis
 /// begins.
@@ -111,19 +183,14 @@ void dress_in_bark(Mesh& mesh, const Skeleton& skeleton, const BarkOptions& opti
   double mean_shade = 1.0;
   set_texture(*bark, options, mean_shade);
 
-  std::vector<ColorBytes> colors(skeleton.node_count(), {255, 255, 255, 255});
-  if (options.image.empty()) {
-    for (std::size_t node = 0; node < colors.size(); ++node) {
-      colors[node] = tint(color_of_kind(options.kind, skeleton.diameter[node]), mean_shade);
-    }
-  }
+  const BarkColors colors(skeleton, options.kind, mean_shade);
   const std::vector<float> repeats = repeats_around(skeleton, options.tile_width);
   const bool has_colors = options.image.empty();
   if (has_colors) mesh.colors.resize(mesh.vertex_count());
   parallel_for(mesh.vertex_count(), 1 << 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t vertex = begin; vertex < end; ++vertex) {
       const std::uint32_t node = mesh.internodes[vertex];
-      if (has_colors) mesh.colors[vertex] = colors[node];
+      if (has_colors) mesh.colors[vertex] = colors.at(node, mesh.positions[vertex]);
       mesh.uvs[vertex] *= repeats[node];
     }
   });

@@ -4,11 +4,10 @@
 // T. Ju, T. Udeshi, Intersection-free contouring on an octree grid, Pacific Graphics 2006.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "common/base/bulk.h"
+#include "common/mesh/mesh.h"
 #include "common/mesh/wood_field.h"
 
 namespace ramify {
@@ -17,7 +16,7 @@ struct ClosedSurface {
   BulkVector<Vec3f> positions;
   BulkVector<Vec3f> normals;             // unit length, the field's gradient
   BulkVector<std::uint32_t> internodes;  // the nearest
-  BulkVector<std::array<std::uint32_t, 3>> triangles;
+  BulkVector<Triangle> triangles;
   std::size_t active_voxels = 0;
 };
 

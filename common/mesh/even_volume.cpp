@@ -8,7 +8,7 @@ constexpr float kCrease = 0.2f;
 
 }  // namespace
 
-void even_volume(const BulkVector<Vec3f>& normals, const BulkVector<std::array<std::uint32_t, 3>>& triangles,
+void even_volume(const BulkVector<Vec3f>& normals, const BulkVector<Triangle>& triangles,
                  const std::vector<bool>& can_move, BulkVector<Vec3f>& positions) {
   BulkVector<float> sums(positions.size(), 0.0f);  // of depths, by area
   BulkVector<float> areas(positions.size(), 0.0f);

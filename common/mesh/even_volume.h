@@ -2,18 +2,15 @@
 // the surface does.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
-#include "common/base/bulk.h"
-#include "common/base/geometry.h"
+#include "common/mesh/mesh.h"
 
 namespace ramify {
 
 /// Moves the vertices that can along their normals, so that triangles lie as far outside the surface as
 /// inside, where it is a quadric; in hollow places inwards. Edges across a crease count as flat. O(n).
-void even_volume(const BulkVector<Vec3f>& normals, const BulkVector<std::array<std::uint32_t, 3>>& triangles,
+void even_volume(const BulkVector<Vec3f>& normals, const BulkVector<Triangle>& triangles,
                  const std::vector<bool>& can_move, BulkVector<Vec3f>& positions);
 
 }  // namespace ramify

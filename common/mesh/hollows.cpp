@@ -6,7 +6,7 @@
 
 namespace ramify {
 
-void fill_hollows(const BulkVector<Vec3f>& positions, BulkVector<std::array<std::uint32_t, 3>>& triangles) {
+void fill_hollows(const BulkVector<Vec3f>& positions, BulkVector<Triangle>& triangles) {
   std::vector<std::uint32_t> leader(positions.size());
   std::iota(leader.begin(), leader.end(), 0u);
   const auto find = [&](std::uint32_t v) {

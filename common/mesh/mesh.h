@@ -30,7 +30,9 @@ struct MaterialRange {
   std::size_t triangle_count = 0;
 };
 
-/// Triangles are counter-clockwise seen from outside.
+/// Three vertices, counter-clockwise seen from outside.
+using Triangle = std::array<std::uint32_t, 3>;
+
 struct Mesh {
   BulkVector<Vec3f> positions;  // metres
   BulkVector<Vec3f> normals;    // unit length, one a vertex
@@ -39,7 +41,7 @@ struct Mesh {
       tangents;  // along +u, unit length; w = 1 or -1: bitangent = w * cross(normal, xyz). Or empty
   BulkVector<std::array<std::uint8_t, 4>> colors;  // sRGB and alpha, one a vertex; empty: none
   BulkVector<std::uint32_t> internodes;            // the skeleton node that each vertex belongs to
-  BulkVector<std::array<std::uint32_t, 3>> triangles;
+  BulkVector<Triangle> triangles;
   std::vector<MaterialRange> ranges;  // in order, covering all triangles
   std::vector<Material> materials;
   std::vector<std::string> warnings;  // of the mesher, one line each

@@ -3,16 +3,12 @@
 // common.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "common/base/bulk.h"
-#include "common/base/geometry.h"
+#include "common/mesh/mesh.h"
 
 namespace ramify {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 /// What may become of a vertex.
 struct Freedom {

@@ -35,13 +35,13 @@ class TubeAdder {
       add_ring(stops[i], along, side, v);
       side = transported(side, along, next);
       tangent = next;
-      if (i > 0) join(last_ring() - sides_, last_ring());
+      if (i > 0) join(last_ring() - (sides_ + 1), last_ring());
     }
-    const auto first_ring = static_cast<std::uint32_t>(last_ring() - (stops.size() - 1) * sides_);
+    const auto first_ring = static_cast<std::uint32_t>(last_ring() - (stops.size() - 1) * (sides_ + 1));
     close(first_ring - 1, first_ring, true);
     add_point(stops.back(), stops.back().at, tangent, {0.0f, v});
     const auto tip = static_cast<std::uint32_t>(mesh_.vertex_count() - 1);
-    close(tip, tip - sides_, false);
+    close(tip, tip - (sides_ + 1), false);
   }
 
  private:
@@ -49,7 +49,7 @@ class TubeAdder {
     return normalized_or(stops[from + 1].at - stops[from].at, kUp, 1e-12);
   }
 
-  std::uint32_t last_ring() const { return static_cast<std::uint32_t>(mesh_.vertex_count()) - sides_; }
+  std::uint32_t last_ring() const { return static_cast<std::uint32_t>(mesh_.vertex_count()) - (sides_ + 1); }
 
   void add_point(const Stop& stop, const Vec3& at, const Vec3& normal, const Vec2f& uv) {
     mesh_.positions.push_back(Vec3f(at));
@@ -58,29 +58,27 @@ class TubeAdder {
     mesh_.internodes.push_back(stop.internode);
   }
 
+  /// Its first vertex comes once more at the end, where u is 1.
   void add_ring(const Stop& stop, const Vec3& along, const Vec3& side, float v) {
     const Vec3 across = glm::cross(along, side);
-    for (std::uint32_t i = 0; i < sides_; ++i) {
+    for (std::uint32_t i = 0; i <= sides_; ++i) {
       const double turn = static_cast<double>(i) / sides_;
-      const double angle = 2.0 * std::numbers::pi * turn;
+      const double angle = 2.0 * std::numbers::pi * (i % sides_) / sides_;
       const Vec3 outwards = side * std::cos(angle) + across * std::sin(angle);
-      add_point(stop, stop.at + outwards * stop.radius, outwards,
-                {static_cast<float>(std::min(turn, 1.0 - turn)), v});
+      add_point(stop, stop.at + outwards * stop.radius, outwards, {static_cast<float>(turn), v});
     }
   }
 
   void join(std::uint32_t low, std::uint32_t high) {
     for (std::uint32_t i = 0; i < sides_; ++i) {
-      const std::uint32_t next = (i + 1) % sides_;
-      mesh_.triangles.push_back({low + i, low + next, high + next});
-      mesh_.triangles.push_back({low + i, high + next, high + i});
+      mesh_.triangles.push_back({low + i, low + i + 1, high + i + 1});
+      mesh_.triangles.push_back({low + i, high + i + 1, high + i});
     }
   }
 
   void close(std::uint32_t center, std::uint32_t ring, bool is_base) {
     for (std::uint32_t i = 0; i < sides_; ++i) {
-      const std::uint32_t next = (i + 1) % sides_;
-      mesh_.triangles.push_back({center, ring + (is_base ? next : i), ring + (is_base ? i : next)});
+      mesh_.triangles.push_back({center, ring + i + (is_base ? 1 : 0), ring + i + (is_base ? 0 : 1)});
     }
   }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/base/errors.h"
-#include "common/base/parallel.h"
+#include "common/mesh/bark_charts.h"
 #include "common/mesh/closed_surface.h"
 #include "common/mesh/thin_tubes.h"
 #include "common/mesh/touched_leaves.h"
@@ -23,6 +23,13 @@ constexpr double kVoxelsWanted = 3.0;
 constexpr double kFinestShare = 1e-3;
 
 constexpr int kHalvings = 40;
+
+// A level of detail has a third of the triangles of the one before; they are as many as voxels' faces.
+constexpr double kLessEachLevel = 3.0;
+
+// At least so many, of thick wood: from here on a budget is sought with coarser voxels, in steps.
+constexpr double kTrianglesAVoxel = 0.1;
+constexpr double kLeastStep = 1.05;
 
 double cone_volume(double length, double a, double b) {
   return std::numbers::pi / 3.0 * length * (a * a + a * b + b * b);
@@ -104,59 +111,29 @@ std::string thin_warning(const Skeleton& skeleton, const WatertightPlan& plan, c
       plan.voxel_size, fate);
 }
 
-/// Where an internode's texture begins.
-struct TextureFrames {
-  std::vector<Vec3f> side;   // perpendicular to the internode; u is 0 there
-  std::vector<float> start;  // v at its base
-
-  explicit TextureFrames(const Skeleton& skeleton)
-      : side(skeleton.node_count(), Vec3f(1, 0, 0)), start(skeleton.node_count(), 0.0f) {
-    std::vector<float> end(skeleton.node_count(), 0.0f);
-    for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
-      if (skeleton.is_root(node)) continue;
-      const std::size_t parent = skeleton.parent[node];
-      const Vec3 along = normalized_or(skeleton.along(node), kUp, 1e-12);
-      const bool goes_on = !skeleton.is_root(parent) && skeleton.axis[parent] == skeleton.axis[node];
-      if (goes_on) {
-        const Vec3 below = normalized_or(skeleton.along(parent), kUp, 1e-12);
-        side[node] = Vec3f(transported(Vec3(side[parent]), below, along));
-        start[node] = end[parent];
-      } else {
-        side[node] = Vec3f(any_perpendicular(along));
-      }
-      end[node] = start[node] + static_cast<float>(skeleton.length(node) / girth(skeleton, node));
-    }
-  }
-
-  static double girth(const Skeleton& skeleton, std::size_t internode) {
-    const double radii = skeleton.start_radius(internode) + 0.5 * skeleton.diameter[internode];
-    return std::max(std::numbers::pi * radii, 1e-9);
-  }
-
-  Vec2f uv(const Skeleton& skeleton, std::size_t internode, const Vec3f& at) const {
-    const Vec3 along = normalized_or(skeleton.along(internode), kUp, 1e-12);
-    const Vec3 apart = Vec3(at) - skeleton.position[skeleton.parent[internode]];
-    const Vec3 reference(side[internode]);
-    const double angle =
-        std::atan2(glm::dot(apart, glm::cross(along, reference)), glm::dot(apart, reference));
-    const double v = start[internode] + glm::dot(apart, along) / girth(skeleton, internode);
-    return {static_cast<float>(std::abs(angle) / (2.0 * std::numbers::pi)), static_cast<float>(v)};
-  }
-};
-
 Mesh mesh_of(const Skeleton& skeleton, ClosedSurface surface) {
   Mesh mesh;
   mesh.positions = std::move(surface.positions);
   mesh.normals = std::move(surface.normals);
   mesh.internodes = std::move(surface.internodes);
   mesh.triangles = std::move(surface.triangles);
-  mesh.uvs.resize(mesh.vertex_count());
-  const TextureFrames frames(skeleton);
-  parallel_for(mesh.vertex_count(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      mesh.uvs[v] = frames.uv(skeleton, mesh.internodes[v], mesh.positions[v]);
-    }
-  });
+  lay_bark_charts(skeleton, mesh);
+  return mesh;
+}
+
+Mesh mesh_with(const Skeleton& skeleton, const MesherOptions& options, const WatertightPlan& plan) {
+  ClosedSurface surface = closed_surface(wood_field(skeleton, plan.is_kept, options.blend), plan.voxel_size,
+                                         options.adaptivity * plan.voxel_size);
+  Mesh mesh = mesh_of(skeleton, std::move(surface));
+  std::string fate = "left out";
+  if (options.thin_twigs == ThinTwigs::tubes) {
+    std::vector<bool> is_thin = plan.is_kept;
+    is_thin.flip();
+    fate = fmt::format("kept as {} closed tubes", add_thin_tubes(skeleton, is_thin, options.sides_min, mesh));
+  }
+  const std::string warning = thin_warning(skeleton, plan, fate);
+  if (!warning.empty()) mesh.warnings.push_back(warning);
+  finish_wood(mesh);
   return mesh;
 }
 
@@ -192,21 +169,27 @@ WatertightPlan plan_watertight(const Skeleton& skeleton, const MesherOptions& op
 
 Mesh watertight_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   if (skeleton.internode_count() == 0) return {};
-  const WatertightPlan plan = plan_watertight(skeleton, options);
-  ClosedSurface surface = closed_surface(wood_field(skeleton, plan.is_kept, options.blend), plan.voxel_size,
-                                         options.adaptivity * plan.voxel_size);
-  Mesh mesh = mesh_of(skeleton, std::move(surface));
-
-  std::string fate = "left out";
-  if (options.thin_twigs == ThinTwigs::tubes) {
-    std::vector<bool> is_thin = plan.is_kept;
-    is_thin.flip();
-    fate = fmt::format("kept as {} closed tubes", add_thin_tubes(skeleton, is_thin, options.sides_min, mesh));
+  WatertightPlan plan = plan_watertight(skeleton, options);
+  const double coarsest = trunk_diameter(skeleton) / kVoxelsAcross;
+  const auto coarsen = [&](double factor) {
+    plan = plan_with(skeleton, std::min(plan.voxel_size * factor, coarsest));
+  };
+  if (options.lod > 0) coarsen(std::pow(kLessEachLevel, 0.5 * options.lod));
+  const double most = options.max_triangles;
+  if (most > 0.0 && kTrianglesAVoxel * plan.predicted_voxels > most) {
+    coarsen(std::sqrt(kTrianglesAVoxel * plan.predicted_voxels / most));
   }
-  const std::string warning = thin_warning(skeleton, plan, fate);
-  if (!warning.empty()) mesh.warnings.push_back(warning);
-  finish_wood(mesh);
-  return mesh;
+  for (;;) {
+    Mesh mesh = mesh_with(skeleton, options, plan);
+    const auto count = static_cast<double>(mesh.triangles.size());
+    if (most <= 0.0 || count <= most) return mesh;
+    if (plan.voxel_size >= coarsest) {
+      throw InputError(fmt::format(
+          "mesher: the tree's mesh has at least {:.0f} triangles; {:.0f} are allowed by max_triangles", count,
+          most));
+    }
+    coarsen(std::max(kLeastStep, std::sqrt(count / most)));
+  }
 }
 
 }  // namespace ramify

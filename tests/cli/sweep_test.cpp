@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "common/base/files.h"
+#include "common/base/image.h"
 #include "tests/catch.h"
+#include "tests/cli/page.h"
 #include "tests/cli/program.h"
 #include "tests/folder.h"
 
@@ -231,6 +233,11 @@ TEST_CASE("sweep: a run that fails has its row and does not stop the others") {
   CHECK(column(rows, "height")[0].empty());
   CHECK_FALSE(column(rows, "height")[3].empty());
 
+  const std::string html = read_file(folder.file("out/report.html"));
+  check_page(html);
+  CHECK(html.find("2 of them failed") != std::string::npos);
+  CHECK(count_of(html, "<mark>failed</mark>: 825 of 1500 endpoints") == 1);
+
   // Only what failed is tried again, and with the same end.
   CHECK(
       sweep("xm12-fig22-sparse --vary pathplan.unreachable=error,warn --vary seed=1,2 -o out --quiet", folder)
@@ -253,7 +260,7 @@ TEST_CASE("sweep: a run that is killed has its row") {
   const Folder folder;
   const Outcome outcome =
       run_shell("'" + program_path() +
-                    "' sweep p09-640k --vary seed=1,2 --threads 1 -o out --quiet & sweep=$!\n"
+                    "' sweep p09-fig7-50 --steps 50 --vary seed=1,2 --threads 1 -o out --quiet & sweep=$!\n"
                     "for i in $(seq 500); do child=$(cat /proc/$sweep/task/$sweep/children); [ -n \"$child\" "
                     "] && break; "
                     "sleep 0.01; done\n"
@@ -312,6 +319,97 @@ TEST_CASE("sweep: killed ten times, it ends with what an undisturbed one has") {
   out.erase("sweep.json");  // has the command, and in it the folder
   whole.erase("sweep.json");
   CHECK(out == whole);
+}
+
+TEST_CASE("sweep: the report is one well-formed page whose pictures lead to their configs") {
+  const Folder folder;
+  const std::string where = folder.path().string();
+  // A name that HTML, the shell and gnuplot would each take for something else.
+  std::ofstream(folder.file("a<b>&'c\".toml")) << "base = \"s4-fig6\"\nsteps = 4\n";
+  const Outcome outcome = sweep(
+      "'a<b>&'\\''c\".toml' --vary growth.alpha=1.5,2 --vary growth.tropism.up.weight=0,0.3 -o out", folder);
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.out.find("What changes most: ") != std::string::npos);
+  const std::string html = read_file(folder.file("out/report.html"));
+  const std::size_t pictures = check_page(html);
+  CHECK(pictures == 4 + count_of(html, "<img src=\"data:image/svg"));
+  CHECK((count_of(html, "<img src=\"data:image/svg") > 5) == has_gnuplot());
+  CHECK(count_of(html, "<figure>") == pictures);
+  CHECK(count_of(html, "<code class=\"command\">ramify ") == pictures);
+  CHECK(count_of(html, "<figure><a href=\"#config-") == 4);
+  CHECK(count_of(html, "id=\"config-") == 4);
+
+  const std::size_t begin = html.find("<code class=\"command\">ramify render") + 22;
+  const std::string name = column(rows_of(read_file(folder.file("out/results.csv"))), "run")[0];
+  const std::string command = html.substr(begin, html.find("</code>", begin) - begin);
+  CHECK(command ==
+        "ramify render &#39;a&lt;b&gt;&amp;&#39;\\&#39;&#39;c&quot;.toml&#39; --set growth.alpha=1.5 "
+        "--set growth.tropism.up.weight=0 --size 240x240 -o " +
+            name + ".png");
+  CHECK(run_program("render 'a<b>&'\\''c\".toml' --set growth.alpha=1.5 --set growth.tropism.up.weight=0 "
+                    "--size 240x240 -o a.png",
+                    where)
+            .code == 0);
+}
+
+TEST_CASE("sweep: pictures, contact sheet and plots stand beside the report") {
+  const Folder folder;
+  outcome_of("s4-fig6 --vary growth.alpha=1.5,2 --vary seed=1,2 --steps 5 -o out", folder);
+  for (const std::string& name : column(rows_of(read_file(folder.file("out/results.csv"))), "run")) {
+    const Image picture = decoded_image(read_file(folder.file("out/pictures/" + name + ".png")), name);
+    CHECK(picture.width == 240);
+    CHECK(picture.height == 240);
+  }
+  const Image sheet = decoded_image(read_file(folder.file("out/contact-sheet.png")), "sheet");
+  CHECK(sheet.width == 480);  // a row a value of growth.alpha
+  CHECK(sheet.height >= 480);
+  const std::string html = read_file(folder.file("out/report.html"));
+  CHECK(html.find("growth.alpha (1.5, 2) by seed (1, 2)") != std::string::npos);
+  if (!has_gnuplot()) return;
+  CHECK(html.find("Means over 2 seeds; bars show their standard deviation") != std::string::npos);
+  CHECK(read_file(folder.file("out/plots/height.png")).rfind("\x89PNG", 0) == 0);
+  CHECK(read_file(folder.file("out/plots/height.svg")).find("prefers-color-scheme: dark") !=
+        std::string::npos);
+
+  outcome_of("s4-fig6 --vary growth.tie=first,mean --steps 5 -o words", folder);
+  CHECK(read_file(folder.file("words/plots/height.svg")).find("first") != std::string::npos);
+  outcome_of(
+      "s4-fig6 --vary growth.alpha=1.5,2 --vary growth.w_optimal=0,1 --vary growth.tie=first,mean --steps 4 "
+      "-o three",
+      folder);
+  CHECK(read_file(folder.file("three/report.html")).find("3 keys vary, too many for a plot") !=
+        std::string::npos);
+}
+
+TEST_CASE("sweep: all pictures are at one scale, and drawn anew only if it changes") {
+  const Folder folder;
+  outcome_of("s4-fig6 --vary steps=3,5 -o out", folder);
+  const auto before = files_of(folder.path() / "out/pictures");
+  const auto time = [&](const std::string& name) {
+    return fs::last_write_time(folder.path() / "out/pictures" / name);
+  };
+  std::map<std::string, fs::file_time_type> times;
+  for (const auto& [name, bytes] : before) times[name] = time(name);
+  outcome_of("s4-fig6 --vary steps=3,4,5 -o out", folder);  // no larger tree
+  for (const auto& [name, bytes] : before) CHECK(time(name) == times[name]);
+  outcome_of("s4-fig6 --vary steps=3,4,5,8 -o out", folder);
+  auto after = files_of(folder.path() / "out/pictures");
+  for (const auto& [name, bytes] : before) CHECK(after[name] != bytes);
+  CHECK(after.size() == 5);
+}
+
+TEST_CASE("sweep: without gnuplot the report says so and has the tables") {
+  const Folder folder;
+  const Outcome outcome = run_program("sweep s4-fig6 --vary growth.alpha=1.5,2 --steps 4 -o out --quiet",
+                                      folder.path().string(), "PATH=/nowhere ");
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK_FALSE(fs::exists(folder.path() / "out/plots"));
+  const std::string html = read_file(folder.file("out/report.html"));
+  CHECK(html.find("gnuplot is not installed") != std::string::npos);
+  CHECK(html.find("<caption>height (m)</caption>") != std::string::npos);
+  CHECK(check_page(html) == 2);
 }
 
 TEST_CASE("sweep: two at once in one folder are one too many") {

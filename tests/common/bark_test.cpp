@@ -8,6 +8,7 @@
 #include "common/mesh/bark_texture.h"
 #include "common/mesh/tangents.h"
 #include "common/mesh/tree_mesh.h"
+#include "common/skeleton/passes.h"
 #include "tests/catch.h"
 #include "tests/common/trees.h"
 #include "tests/folder.h"
@@ -110,6 +111,42 @@ TEST_CASE("bark: twigs have another colour than the trunk") {
     return mesh.colors[static_cast<std::size_t>(vertex - mesh.internodes.begin())];
   };
   CHECK(color_of(1) != color_of(10));
+}
+
+TEST_CASE("bark: at a fork the lateral's colour begins as its parent's, whatever the method") {
+  Skeleton tree = pole(4);
+  tree.position.push_back(tree.position[2] + Vec3(1.5, 0.2, 0));
+  tree.parent.push_back(2);
+  tree.diameter.push_back(0.02);
+  tree.kind.push_back(Kind::stem);
+  assign_axes(tree);
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones, MeshMethod::watertight}) {
+    Looks looks;
+    looks.mesher.method = method;
+    const Mesh mesh = make_tree_mesh(tree, looks, 1).mesh;
+    const auto color_near = [&](const Vec3f& place, std::uint32_t internode) {
+      std::size_t nearest = mesh.vertex_count();
+      for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (mesh.internodes[v] != internode) continue;
+        const bool is_nearer =
+            nearest == mesh.vertex_count() ||
+            glm::length(mesh.positions[v] - place) < glm::length(mesh.positions[nearest] - place);
+        if (is_nearer) nearest = v;
+      }
+      return mesh.colors.at(nearest);
+    };
+    const auto step = [](const auto& a, const auto& b) {
+      int greatest = 0;
+      for (std::size_t i = 0; i < 3; ++i) greatest = std::max(greatest, std::abs(a[i] - b[i]));
+      return greatest;
+    };
+    const Vec3f foot(tree.position[2] + Vec3(0.5 * tree.diameter[2], 0.0, 0.0));
+    const auto trunk = color_near(foot, 2);
+    const auto tip = color_near(Vec3f(tree.position[5]), 5);
+    INFO(static_cast<int>(method));
+    CHECK(step(trunk, tip) > 20);
+    CHECK(step(trunk, color_near(foot, 5)) < 8);
+  }
 }
 
 TEST_CASE("bark: tangents are unit vectors across the normal") {

@@ -143,6 +143,28 @@ std::vector<std::string> manifold_violations(const Mesh& mesh) {
   return found;
 }
 
+Mesh welded(const Mesh& mesh) {
+  std::map<std::array<float, 3>, std::uint32_t> known;
+  std::vector<std::uint32_t> place;
+  Mesh result;
+  result.triangles = mesh.triangles;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3f& p = mesh.positions[v];
+    const auto next = static_cast<std::uint32_t>(result.vertex_count());
+    const auto [found, is_new] = known.try_emplace({p.x, p.y, p.z}, next);
+    place.push_back(found->second);
+    if (!is_new) continue;
+    result.positions.push_back(p);
+    result.normals.push_back(mesh.normals[v]);
+    result.uvs.push_back(mesh.uvs[v]);
+    result.internodes.push_back(mesh.internodes[v]);
+  }
+  for (auto& triangle : result.triangles) {
+    for (std::uint32_t& vertex : triangle) vertex = place[vertex];
+  }
+  return result;
+}
+
 std::size_t self_intersections(const Mesh& mesh) {
   // Triangles sorted into the cells of a grid that they touch.
   double longest = 0.0;

@@ -14,6 +14,9 @@ namespace ramify::test {
 /// place, a triangle without area, a normal that is no unit vector or points inwards, a number that is none.
 std::vector<std::string> manifold_violations(const Mesh& mesh);
 
+/// The mesh with one vertex where several lie in one place, as textures need them; the first's attributes.
+Mesh welded(const Mesh& mesh);
+
 /// Pairs of triangles without a common vertex that cut each other. O(n log n) for a mesh of even triangles.
 std::size_t self_intersections(const Mesh& mesh);
 

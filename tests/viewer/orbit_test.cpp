@@ -59,12 +59,10 @@ TEST_CASE("orbit: a framed box fills the picture without leaving it, and lies be
       for (double elevation : {-90.0, -20.0, 0.0, 35.0, 90.0}) {
         INFO("parallel " << is_parallel << ", aspect " << aspect << ", elevation " << elevation);
         Orbit orbit{.azimuth_deg = 40.0, .elevation_deg = elevation, .is_parallel = is_parallel};
-        orbit = framed(orbit, box, aspect);
+        orbit = framed(orbit, corners(box), aspect);
         const Camera camera = camera_of(orbit, aspect, box, 0.0);
         double widest = 0.0;
-        for (int index = 0; index < 8; ++index) {
-          const Vec3 corner(index & 1 ? box.high.x : box.low.x, index & 2 ? box.high.y : box.low.y,
-                            index & 4 ? box.high.z : box.low.z);
+        for (const Vec3& corner : corners(box)) {
           const Vec3 at = in_picture(camera, corner);
           CHECK(std::abs(at.z) <= 1.0 + 1e-9);
           widest = std::max({widest, std::abs(at.x), std::abs(at.y)});
