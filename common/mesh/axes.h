@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "common/base/bulk.h"
 #include "common/base/geometry.h"
@@ -36,10 +35,6 @@ struct Axes {
   BulkVector<AxisPoint> points;
   float thinnest = 0.0f;  // radius, metres: no point has less
   float thickest = 0.0f;  // radius of any node, metres
-
-  std::span<const AxisPoint> points_of(const Axis& axis) const {
-    return std::span(points).subspan(axis.first, axis.count);
-  }
 };
 
 /// All axes of a sound skeleton. O(n).
