@@ -45,7 +45,8 @@ struct Box {
 
 /// v / |v|, or `fallback` where v is shorter than `shortest`.
 template <class V>
-V normalized_or(const V& v, const V& fallback, typename V::value_type shortest = typename V::value_type(1e-6)) {
+V normalized_or(const V& v, const V& fallback,
+                typename V::value_type shortest = typename V::value_type(1e-6)) {
   const auto length = glm::length(v);
   return length < shortest ? fallback : v / length;
 }

@@ -301,7 +301,8 @@ TEST_CASE("skel.ply: each broken file is one line") {
   };
   CHECK(error_of("t.skel.ply", "") == "t.skel.ply:1: no PLY file (it begins with 'ply')");
   CHECK(error_with("binary_little_endian", "ascii") == "t.skel.ply:2: not 'format binary_little_endian 1.0'");
-  CHECK(error_of("t.skel.ply", good.substr(0, good.find("element edge"))).find("the header has no end") != std::string::npos);
+  CHECK(error_of("t.skel.ply", good.substr(0, good.find("element edge"))).find("the header has no end") !=
+        std::string::npos);
   CHECK(error_of("t.skel.ply", good.substr(0, good.size() - 1)).find("rows of element 'edge' do not fit") !=
         std::string::npos);
   CHECK(error_of("t.skel.ply", good + "x") == "t.skel.ply: 1 bytes after the last row");
