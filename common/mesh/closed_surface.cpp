@@ -70,21 +70,20 @@ class VertexPlacer {
   VertexPlacer(const WoodVoxels& voxels, const FieldItems& items, CellVertices& vertices)
       : voxels_(voxels), items_(items), vertices_(vertices) {}
 
-  /// Of the cells that the leaf's mask names; the first vertex is `vertex`.
-  void place(std::size_t leaf, const VoxelReader& reader, std::size_t vertex) {
+  /// Of these cells of the leaf; the first vertex is `vertex`.
+  void place(std::size_t leaf, const CellMask& cells, const VoxelReader& reader, std::size_t vertex) {
     middle_ = voxels_.middle_of(leaf);
     field_.reset(items_, voxels_.touched.of(leaf), middle_, voxels_.voxel_size);
-    const LeafWindow window(*voxels_.leaves[leaf], reader);
+    const LeafWindow window(leaf, reader);
     count_ = 0;
-    for (auto cell = voxels_.leaves[leaf]->beginValueOn(); cell; ++cell) {
-      const openvdb::Coord local = VoxelLeaf::offsetToLocalCoord(cell.pos());
+    cells.for_each([&](int x, int y, int z) {
       // The first voxel stands half a voxel inside the leaf.
-      const Vec3f corner = Vec3f(local.x(), local.y(), local.z()) + (0.5f - 0.5f * kLeafSide);
-      const Vec3f at = corner + amid_crossings(window.corners(local.x(), local.y(), local.z()));
+      const Vec3f corner = Vec3f(x, y, z) + (0.5f - 0.5f * kLeafSide);
+      const Vec3f at = corner + amid_crossings(window.corners(x, y, z));
       corners_[static_cast<std::size_t>(count_)] = corner;
       set(count_++, at);
       if (count_ == kBatch) vertex = finish(vertex);
-    }
+    });
     finish(vertex);
   }
 
@@ -186,6 +185,7 @@ class Contour {
     make_pieces();
     const std::size_t active_voxels = voxels_.active_voxels;
     voxels_ = {};
+    cells_ = {};
     vertices_ = {};
     ClosedSurface surface = assembled();
     surface.active_voxels = active_voxels;
@@ -193,50 +193,46 @@ class Contour {
   }
 
  private:
-  /// From here on a leaf's mask says which of its cells have a vertex.
+  /// Each cell that the surface passes has a vertex.
   void mark_cells() {
-    std::vector<VoxelLeaf::NodeMaskType> masks(voxels_.leaves.size());
-    voxels_.for_each_leaf([&](std::size_t i, const VoxelReader& reader) {
-      for_each_crossed_cell(LeafSigns(*voxels_.leaves[i], reader), [&](int x, int y, int z) {
-        masks[i].setOn(VoxelLeaf::coordToOffset(openvdb::Coord(x, y, z)));
-      });
+    cells_.resize(leaf_count());
+    for_each_leaf(voxels_, [&](std::size_t i, const VoxelReader& reader) {
+      for_each_crossed_cell(LeafSigns(i, reader), [&](int x, int y, int z) { cells_[i].add(x, y, z); });
     });
-    first_vertex_.assign(voxels_.leaves.size() + 1, 0);
-    for (std::size_t i = 0; i < voxels_.leaves.size(); ++i) {
-      voxels_.leaves[i]->setValueMask(masks[i]);
-      first_vertex_[i + 1] = first_vertex_[i] + masks[i].countOn();
-    }
+    first_vertex_.assign(leaf_count() + 1, 0);
+    for (std::size_t i = 0; i < leaf_count(); ++i)
+      first_vertex_[i + 1] = first_vertex_[i] + cells_[i].count();
     if (first_vertex_.back() >= kOnEdge)
       throw RunError("watertight: more than 2^31 vertices (larger voxels)");
   }
 
   void place_vertices() {
     vertices_.resize(first_vertex_.back());
-    parallel_for(voxels_.leaves.size(), 16, [&](std::size_t begin, std::size_t end) {
-      const VoxelReader reader(*voxels_.grid);
+    parallel_for(leaf_count(), 16, [&](std::size_t begin, std::size_t end) {
+      const VoxelReader reader(voxels_);
       VertexPlacer placer(voxels_, items_, vertices_);
-      for (std::size_t i = begin; i < end; ++i) placer.place(i, reader, first_vertex_[i]);
+      for (std::size_t i = begin; i < end; ++i) placer.place(i, cells_[i], reader, first_vertex_[i]);
     });
   }
 
   void make_pieces() {
-    pieces_.resize((voxels_.leaves.size() + kLeavesAPiece - 1) / kLeavesAPiece);
+    pieces_.resize((leaf_count() + kLeavesAPiece - 1) / kLeavesAPiece);
     parallel_for(pieces_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      const VoxelReader reader(*voxels_.grid);
+      const VoxelReader reader(voxels_);
       for (std::size_t i = begin; i < end; ++i) make_piece(i, reader);
     });
   }
 
-  std::size_t first_leaf_of(std::size_t piece) const {
-    return std::min(piece * kLeavesAPiece, voxels_.leaves.size());
-  }
+  std::size_t leaf_count() const { return voxels_.touched.leaves.size(); }
+
+  std::size_t first_leaf_of(std::size_t piece) const { return std::min(piece * kLeavesAPiece, leaf_count()); }
 
   void make_piece(std::size_t index, const VoxelReader& reader) {
     Piece& piece = pieces_[index];
     std::vector<EdgeVertex> on_edges;
     BulkVector<Triangle> triangles;
     for (std::size_t leaf = first_leaf_of(index); leaf < first_leaf_of(index + 1); ++leaf) {
-      const LeafSigns signs(*voxels_.leaves[leaf], reader);
+      const LeafSigns signs(leaf, reader);
       for (int x = 0; x < kLeafSide; ++x) {
         for (int y = 0; y < kLeafSide; ++y) {
           // Where the surface crosses the grid's edges that leave a row of voxels along each axis.
@@ -324,21 +320,18 @@ class Contour {
       // Bit i: the leaf that follows on the sides in i (1: x, 2: y, 4: z) belongs to another piece.
       unsigned foreign = 0;
       for (int i = 1; i < 8; ++i) {
-        const openvdb::Coord origin = voxels_.leaves[leaf]->origin().offsetBy(
-            (i & 1) * kLeafSide, (i >> 1 & 1) * kLeafSide, (i >> 2 & 1) * kLeafSide);
-        const VoxelLeaf* next = reader.probeConstLeaf(origin);
-        if (next != nullptr && next->transientData() / kLeavesAPiece != index) foreign |= 1u << i;
+        const Coord beside(i & 1, i >> 1 & 1, i >> 2 & 1);
+        const std::optional<std::size_t> next = reader.leaf_at(voxels_.origin_of(leaf) + beside * kLeafSide);
+        if (next && *next / kLeavesAPiece != index) foreign |= 1u << i;
       }
-      for (auto cell = voxels_.leaves[leaf]->beginValueOn(); cell; ++cell, ++vertex) {
-        if (foreign == 0) continue;
-        const openvdb::Coord local = VoxelLeaf::offsetToLocalCoord(cell.pos());
-        const unsigned last = (local.x() == kLeafSide - 1 ? 1u : 0u) |
-                              (local.y() == kLeafSide - 1 ? 2u : 0u) | (local.z() == kLeafSide - 1 ? 4u : 0u);
+      cells_[leaf].for_each([&](int x, int y, int z) {
+        const unsigned last =
+            (x == kLeafSide - 1 ? 1u : 0u) | (y == kLeafSide - 1 ? 2u : 0u) | (z == kLeafSide - 1 ? 4u : 0u);
         for (unsigned i = 1; i < 8; ++i) {
-          if ((i & ~last) != 0 || (foreign >> i & 1u) == 0) continue;
-          piece.mesh.freedom[vertex].is_whole = false;
+          if ((i & ~last) == 0 && (foreign >> i & 1u) != 0) piece.mesh.freedom[vertex].is_whole = false;
         }
-      }
+        ++vertex;
+      });
     }
   }
 
@@ -389,17 +382,12 @@ class Contour {
     values = std::move(result);
   }
 
-  std::uint32_t vertex_of(const openvdb::Coord& cell, const VoxelReader& voxels) const {
-    const VoxelLeaf* leaf = voxels.probeConstLeaf(cell);
-    const openvdb::Index offset = VoxelLeaf::coordToOffset(cell);
-    const auto& mask = leaf->valueMask();
-    std::uint32_t rank = 0;
-    for (openvdb::Index word = 0; word < offset / 64; ++word) {
-      rank += static_cast<std::uint32_t>(std::popcount(mask.getWord<openvdb::Index64>(word)));
-    }
-    const openvdb::Index64 below = (openvdb::Index64{1} << (offset % 64)) - 1;
-    rank += static_cast<std::uint32_t>(std::popcount(mask.getWord<openvdb::Index64>(offset / 64) & below));
-    return static_cast<std::uint32_t>(first_vertex_[leaf->transientData()]) + rank;
+  std::uint32_t vertex_of(const Coord& cell, const VoxelReader& voxels) const {
+    // All cells that the surface passes are in leaves.
+    const std::size_t leaf = *voxels.leaf_at(cell);
+    const Coord local = cell - voxels_.origin_of(leaf);
+    return static_cast<std::uint32_t>(first_vertex_[leaf] +
+                                      cells_[leaf].count_before(local.x, local.y, local.z));
   }
 
   /// The triangles about the grid edge that leaves a voxel along `axis`; the surface crosses it, outwards if
@@ -407,9 +395,9 @@ class Contour {
   void add_quad(std::size_t leaf, const Coord& voxel, int axis, bool is_inside, const VoxelReader& voxels,
                 BulkVector<Triangle>& triangles, std::vector<EdgeVertex>& on_edges) const {
     // The four cells around the edge, counter-clockwise seen from its end: from outside, if that is there.
-    const openvdb::Coord last = voxels_.leaves[leaf]->origin().offsetBy(voxel.x, voxel.y, voxel.z);
-    openvdb::Coord b(0, 0, 0);
-    openvdb::Coord c(0, 0, 0);
+    const Coord last = voxels_.origin_of(leaf) + voxel;
+    Coord b(0);
+    Coord c(0);
     b[(axis + 1) % 3] = 1;
     c[(axis + 2) % 3] = 1;
     std::array<std::uint32_t, 4> ring = {vertex_of(last - b - c, voxels), vertex_of(last - c, voxels),
@@ -418,7 +406,7 @@ class Contour {
     if (!is_inside) std::swap(ring[1], ring[3]);
     Coord step(0);
     step[axis] = 1;
-    const Vec3 start = place_of({last.x(), last.y(), last.z()}, voxels_.voxel_size);
+    const Vec3 start = place_of(last, voxels_.voxel_size);
     const Vec3 end = start + Vec3(step) * voxels_.voxel_size;
     const std::optional<int> diagonal = safe_diagonal(ring, start, end);
     if (diagonal) {
@@ -427,8 +415,8 @@ class Contour {
       triangles.push_back({ring[d], ring[d + 2], ring[(d + 3) % 4]});
       return;
     }
-    const double from = voxels.getValue(last);
-    const double to = voxels.getValue(last.offsetBy(step.x, step.y, step.z));
+    const double from = voxels.value(last);
+    const double to = voxels.value(last + step);
     const double margin = kCellMargin;
     const double t = std::clamp(from / (from - to), margin, 1.0 - margin);
     const std::uint32_t middle = kOnEdge | static_cast<std::uint32_t>(on_edges.size());
@@ -577,6 +565,7 @@ class Contour {
   const FieldItems& items_;
   double tolerance_;
   WoodVoxels voxels_;
+  std::vector<CellMask> cells_;            // of each leaf, those that have a vertex
   std::vector<std::size_t> first_vertex_;  // of each leaf; one more at the end
   CellVertices vertices_;
   std::vector<Piece> pieces_;

@@ -1,5 +1,6 @@
 #include "common/mesh/wood_voxels.h"
 
+#include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
@@ -10,7 +11,25 @@
 #include "common/mesh/leaf_field.h"
 
 namespace ramify {
+
+struct VoxelGrid {
+  openvdb::FloatTree tree;
+  std::vector<openvdb::FloatTree::LeafNodeType*> leaves;  // their transient data are their numbers
+};
+
+struct VoxelReader::Access {
+  const VoxelGrid& grid;
+  openvdb::tree::ValueAccessor<const openvdb::FloatTree, false> tree;
+};
+
 namespace {
+
+using VoxelLeaf = openvdb::FloatTree::LeafNodeType;
+using VoxelWriter = openvdb::tree::ValueAccessor<openvdb::FloatTree, false>;
+
+openvdb::Coord in_grid(const Coord& voxel) {
+  return openvdb::Coord(voxel.x, voxel.y, voxel.z);
+}
 
 // Along a block's side, a leaf's half: blocks that the surface does not come near are not looked at.
 constexpr int kBlockSide = 4;
@@ -99,31 +118,31 @@ class Rasteriser {
 };
 
 void rasterise(const FieldItems& items, WoodVoxels& voxels) {
-  voxels.grid = std::make_unique<VoxelGrid>(kClamp);
-  voxels.leaves.resize(voxels.touched.leaves.size());
-  std::vector<std::size_t> active(voxels.leaves.size(), 0);
-  parallel_for(voxels.leaves.size(), 16, [&](std::size_t begin, std::size_t end) {
+  const std::size_t count = voxels.touched.leaves.size();
+  voxels.grid = std::make_shared<VoxelGrid>(VoxelGrid{openvdb::FloatTree(kClamp), {}});
+  auto& leaves = voxels.grid->leaves;
+  leaves.resize(count);
+  std::vector<std::size_t> active(count, 0);
+  parallel_for(count, 16, [&](std::size_t begin, std::size_t end) {
     LeafField field;
     Rasteriser rasteriser;
     for (std::size_t i = begin; i < end; ++i) {
-      const Coord corner = voxels.touched.leaves[i] * kLeafSide;
       field.reset(items, voxels.touched.of(i), voxels.middle_of(i), voxels.voxel_size);
       // The grid will own it.
-      voxels.leaves[i] = new VoxelLeaf(openvdb::Coord(corner.x, corner.y, corner.z), kClamp, true);
-      active[i] = rasteriser.fill(*voxels.leaves[i], field);
+      leaves[i] = new VoxelLeaf(in_grid(voxels.origin_of(i)), kClamp, true);
+      active[i] = rasteriser.fill(*leaves[i], field);
     }
   });
-  for (std::size_t i = 0; i < voxels.leaves.size(); ++i) {
-    voxels.leaves[i]->setTransientData(static_cast<openvdb::Index32>(i));
-    voxels.grid->addLeaf(voxels.leaves[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    leaves[i]->setTransientData(static_cast<openvdb::Index32>(i));
+    voxels.grid->tree.addLeaf(leaves[i]);
   }
   voxels.active_voxels = std::accumulate(active.begin(), active.end(), std::size_t{0});
-  openvdb::tools::signedFloodFill(*voxels.grid);
+  openvdb::tools::signedFloodFill(voxels.grid->tree);
 }
 
 /// Fills one corner of an ambiguous cell; returns which.
-std::optional<openvdb::Coord> fill_one(const openvdb::Coord& cell,
-                                       openvdb::tree::ValueAccessor<VoxelGrid, false>& voxels) {
+std::optional<openvdb::Coord> fill_one(const openvdb::Coord& cell, VoxelWriter& voxels) {
   CellCorners corners{};
   const auto corner = [&](unsigned i) {
     return cell.offsetBy(static_cast<int>(i / 4), static_cast<int>(i / 2 % 2), static_cast<int>(i % 2));
@@ -143,19 +162,19 @@ std::optional<openvdb::Coord> fill_one(const openvdb::Coord& cell,
 }
 
 void fill_ambiguous(WoodVoxels& voxels) {
-  std::vector<std::vector<openvdb::Coord>> found(voxels.leaves.size());
-  voxels.for_each_leaf([&](std::size_t i, const VoxelReader& reader) {
-    const LeafSigns signs(*voxels.leaves[i], reader);
+  std::vector<std::vector<openvdb::Coord>> found(voxels.touched.leaves.size());
+  for_each_leaf(voxels, [&](std::size_t i, const VoxelReader& reader) {
+    const LeafSigns signs(i, reader);
     for_each_crossed_cell(signs, [&](int x, int y, int z) {
       unsigned corners = 0;
       for (int c = 0; c < 4; ++c) corners |= (signs.row(x + c / 2, y + c % 2) >> z & 3u) << (2 * c);
       if (kAmbiguous[corners] == 0) return;
-      found[i].push_back(voxels.leaves[i]->origin().offsetBy(x, y, z));
+      found[i].push_back(in_grid(voxels.origin_of(i) + Coord(x, y, z)));
     });
   });
   std::deque<openvdb::Coord> cells;
   for (const auto& list : found) cells.insert(cells.end(), list.begin(), list.end());
-  openvdb::tree::ValueAccessor<VoxelGrid, false> writer(*voxels.grid);
+  VoxelWriter writer(voxels.grid->tree);
   while (!cells.empty()) {
     const openvdb::Coord cell = cells.front();
     cells.pop_front();
@@ -167,7 +186,24 @@ void fill_ambiguous(WoodVoxels& voxels) {
 
 }  // namespace
 
-LeafSigns::LeafSigns(const VoxelLeaf& leaf, const VoxelReader& voxels) {
+VoxelReader::VoxelReader(const WoodVoxels& voxels)
+    : access_(new Access{*voxels.grid, decltype(Access::tree)(voxels.grid->tree)}) {}
+
+VoxelReader::~VoxelReader() = default;
+
+float VoxelReader::value(const Coord& voxel) const {
+  return access_->tree.getValue(in_grid(voxel));
+}
+
+std::optional<std::size_t> VoxelReader::leaf_at(const Coord& voxel) const {
+  const VoxelLeaf* leaf = access_->tree.probeConstLeaf(in_grid(voxel));
+  if (leaf == nullptr) return std::nullopt;
+  return leaf->transientData();
+}
+
+LeafSigns::LeafSigns(std::size_t number, const VoxelReader& reader) {
+  const VoxelLeaf& leaf = *reader.access_->grid.leaves[number];
+  const auto& voxels = reader.access_->tree;
   // A voxel's bit in a row of its own leaf, or in the one that follows along z.
   const auto bits_of = [](const VoxelLeaf& from, int x, int y, int count) {
     const float* row = from.buffer().data() + (x * kLeafSide + y) * kLeafSide;
@@ -201,7 +237,9 @@ unsigned LeafSigns::crossed_cells(int x, int y) const {
   return ((any | any >> 1) & ~(all & all >> 1)) & ((1u << kLeafSide) - 1);
 }
 
-LeafWindow::LeafWindow(const VoxelLeaf& leaf, const VoxelReader& voxels) {
+LeafWindow::LeafWindow(std::size_t number, const VoxelReader& reader) {
+  const VoxelLeaf& leaf = *reader.access_->grid.leaves[number];
+  const auto& voxels = reader.access_->tree;
   const float* own = leaf.buffer().data();
   for (int x = 0; x < kSide; ++x) {
     for (int y = 0; y < kSide; ++y) {
