@@ -124,6 +124,7 @@ void run(Workbench& bench) {
     const double rest = tend(bench);
     lay_out(bench, gallery);
     bench.window.end_frame();
+    bench.left.clear();
     drive.tell(bench);
     const bool is_fresh =
         ImGui::GetFrameCount() < kFirstFrames || Window::now() - bench.window.last_input() < kAfterInput;

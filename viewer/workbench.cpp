@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "common/base/errors.h"
 #include "common/config/differences.h"
@@ -105,7 +106,7 @@ void open_in_seat(Workbench& bench, std::size_t index, const std::string& input)
   auto seat = std::make_unique<Seat>(bench.services.open(input));
   if (index < bench.seats.size()) {
     seat->orbit = bench.seats[index]->orbit;
-    bench.seats[index] = std::move(seat);
+    bench.left.push_back(std::exchange(bench.seats[index], std::move(seat)));
   } else {
     if (!bench.seats.empty()) seat->orbit = bench.seats.front()->orbit;
     bench.seats.push_back(std::move(seat));

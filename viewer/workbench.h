@@ -53,7 +53,9 @@ struct Workbench {
   WidgetReport report;
 
   std::vector<std::unique_ptr<Seat>> seats = {};  // one or two
-  std::size_t active = 0;                         // whose parameters are shown
+  std::vector<std::unique_ptr<Seat>> left =
+      {};                  // replaced in this frame, which may still show their pictures
+  std::size_t active = 0;  // whose parameters are shown
   ShowOptions show = {};
   bool are_cameras_linked = true;
   bool is_same_scale = false;
