@@ -189,6 +189,8 @@ void Window::end_frame() {
   glViewport(0, 0, width, height);
   glClearColor(0.1f, 0.1f, 0.1f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
+  // ImGui puts back what was in use before it; a tree that was replaced may have taken its program along.
+  glUseProgram(0);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(implementation_->window);
   if (implementation_->can_be_lost && glGetGraphicsResetStatusARB() != GL_NO_ERROR) {
