@@ -24,14 +24,7 @@ void attempt(Workbench& bench, const Action& action) {
 void frame(Workbench& bench, Seat& seat) {
   const bool is_overlaid = bench.show.arrangement == Arrangement::overlaid;
   const Seat& shown = is_overlaid ? *bench.seats.front() : seat;
-  std::vector<Vec3> points;
-  for (const auto& other : bench.seats) {
-    const Product* product = other->document.product();
-    if (product == nullptr || (!is_overlaid && other.get() != &seat)) continue;
-    const std::vector<Vec3> own = framing_points(*product);
-    points.insert(points.end(), own.begin(), own.end());
-  }
-  seat.orbit = framed(seat.orbit, points, shown.pane.aspect());
+  seat.orbit = framed(seat.orbit, points_in_sight(bench, seat), shown.pane.aspect());
 }
 
 }  // namespace

@@ -191,4 +191,11 @@ Annotations make_annotations(const glm::dvec2& low, const glm::dvec2& high) {
   return annotations;
 }
 
+Annotations annotations_beside(const Box& box, const Vec3& base, double azimuth_deg) {
+  const CameraAxes axes = camera_axes(azimuth_deg, 0.0);
+  Box extent;
+  for (const Vec3& corner : corners(box)) extent.include(axes.coordinates(corner - base));
+  return make_annotations(glm::dvec2(extent.low), glm::dvec2(extent.high));
+}
+
 }  // namespace ramify

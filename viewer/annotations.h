@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/geometry.h"
+#include "viewer/camera.h"
 
 namespace ramify {
 
@@ -20,6 +21,9 @@ struct Annotations {
 
 /// Around a tree that reaches from `low` to `high` in that plane.
 Annotations make_annotations(const glm::dvec2& low, const glm::dvec2& high);
+
+/// Beside a box whose tree stands at `base`, upright and turned to a viewer at that azimuth.
+Annotations annotations_beside(const Box& box, const Vec3& base, double azimuth_deg);
 
 /// The greatest of 1, 2, 5 times a power of ten that is not above `length` (> 0).
 double bar_length(double length);

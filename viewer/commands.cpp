@@ -137,7 +137,11 @@ std::vector<Command> view_commands() {
       {.menu = "View",
        .label = "Scale bar and figure",
        .key = {"m"},
-       .run = [](Workbench& bench) { bench.show.with_scale = !bench.show.with_scale; },
+       .run =
+           [](Workbench& bench) {
+             bench.show.with_scale = !bench.show.with_scale;
+             frame_trees(bench);
+           },
        .is_on = [](const Workbench& bench) { return bench.show.with_scale; }},
       {.menu = "View",
        .label = "Fields as a slice",

@@ -127,12 +127,8 @@ Image Pane::image() const {
 
 /// Upright, beside the tree, and turned to the viewer.
 void Pane::stand_figure(Loaded& loaded, const Orbit& orbit) const {
-  const CameraAxes axes = camera_axes(orbit.azimuth_deg, 0.0);
-  const Vec3 origin = axes.coordinates(loaded.base);
-  Box extent;
-  for (const Vec3& corner : corners(box_)) extent.include(axes.coordinates(corner));
-  loaded.painter.load_annotations(
-      make_annotations(glm::dvec2(extent.low - origin), glm::dvec2(extent.high - origin)), loaded.base, axes);
+  loaded.painter.load_annotations(annotations_beside(box_, loaded.base, orbit.azimuth_deg), loaded.base,
+                                  camera_axes(orbit.azimuth_deg, 0.0));
 }
 
 /// Returns the seconds it took.

@@ -109,7 +109,7 @@ void frame_first(Workbench& bench, Seat& seat, double aspect) {
   const Product* product = seat.document.product();
   if (seat.is_framed || product == nullptr || product->box.is_empty()) return;
   seat.is_framed = true;
-  seat.orbit = framed(seat.orbit, framing_points(*product), aspect);
+  seat.orbit = framed(seat.orbit, points_in_sight(bench, seat), aspect);
   if (bench.is_same_scale) equalize_scales(bench);
 }
 

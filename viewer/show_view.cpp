@@ -105,7 +105,7 @@ void show_choices(Workbench& bench) {
   ImGui::Checkbox("fields as a slice", &bench.show.are_slices);
   bench.report.add("slices");
   heading("Scale");
-  ImGui::Checkbox("bar and a person 1.75 m tall", &bench.show.with_scale);
+  if (ImGui::Checkbox("bar and a person 1.75 m tall", &bench.show.with_scale)) frame_trees(bench);
   bench.report.add("scale");
   if (bench.seats.size() > 1) {
     if (ImGui::Checkbox("same scale for both trees", &bench.is_same_scale)) frame_trees(bench);

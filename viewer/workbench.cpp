@@ -11,6 +11,8 @@
 #include "common/config/inheritance.h"
 #include "common/config/presets.h"
 #include "common/config/toml_reader.h"
+#include "viewer/annotations.h"
+#include "viewer/scene.h"
 
 namespace ramify {
 namespace {
@@ -117,6 +119,28 @@ void open_in_seat(Workbench& bench, std::size_t index, const std::string& input)
 
 std::size_t pane_count(const Workbench& bench) {
   return bench.show.arrangement == Arrangement::overlaid ? 1 : bench.seats.size();
+}
+
+std::vector<Vec3> points_in_sight(const Workbench& bench, const Seat& seat) {
+  const bool is_overlaid = bench.show.arrangement == Arrangement::overlaid;
+  std::vector<Vec3> points;
+  Box box;
+  std::optional<Vec3> base;
+  for (const auto& other : bench.seats) {
+    const Product* product = other->document.product();
+    if (product == nullptr || product->box.is_empty() || (!is_overlaid && other.get() != &seat)) continue;
+    const std::vector<Vec3> own = framing_points(*product);
+    points.insert(points.end(), own.begin(), own.end());
+    box.include(product->box);
+    if (!base) base = base_of({.mesh = &product->mesh, .skeleton = &product->skeleton});
+  }
+  if (!bench.show.with_scale || !base) return points;
+  const Annotations beside = annotations_beside(box, *base, seat.orbit.azimuth_deg);
+  const CameraAxes axes = camera_axes(seat.orbit.azimuth_deg, 0.0);
+  for (const std::vector<Vec2f>* shape : {&beside.figure, &beside.bar}) {
+    for (const Vec2f& corner : *shape) points.push_back(*base + axes.world(Vec3(corner, 0.0)));
+  }
+  return points;
 }
 
 double tend(Workbench& bench) {

@@ -91,6 +91,10 @@ void open_in_seat(Workbench& bench, std::size_t index, const std::string& input)
 /// Widths and heights of the panes follow from this: how many pictures there are.
 std::size_t pane_count(const Workbench& bench);
 
+/// What the picture of a seat is to have in sight: its tree, or both if they are overlaid, and what stands
+/// beside to show their size. Empty while there is no tree.
+std::vector<Vec3> points_in_sight(const Workbench& bench, const Seat& seat);
+
 /// What is due without the user doing anything: trees that came, configs that changed on disk, the next step
 /// of what plays. Returns the seconds until there may be more to do.
 double tend(Workbench& bench);
