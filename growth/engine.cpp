@@ -29,7 +29,12 @@ Skeleton skeleton_of(std::vector<GrowingTree> trees, const Parameters& parameter
 UsedVolumes Engine::volumes(const Parameters& parameters) {
   UsedVolumes used;
   for (const Obstacle& obstacle : parameters.obstacles) {
-    if (obstacle.blocks || obstacle.shadow > 0.0) used.obstacles.push_back(&obstacle.volume);
+    // What shades alone, a forest around, would hide the tree.
+    if (obstacle.blocks) {
+      used.obstacles.push_back(&obstacle.volume);
+    } else if (obstacle.shadow > 0.0) {
+      used.others.push_back(&obstacle.volume);
+    }
   }
   if (parameters.environment == Environment::space) used.others.push_back(&parameters.markers.volume);
   for (const PruneEvent& event : parameters.prune) {

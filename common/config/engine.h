@@ -63,7 +63,7 @@ struct RunResult {
 /// Volumes that a run looks at, where they are in the world; their addresses are the parameters' own.
 struct UsedVolumes {
   std::vector<const Volume*> obstacles;  // what stands in the way
-  std::vector<const Volume*> others;     // where trees, markers and cuts may be
+  std::vector<const Volume*> others;     // where trees, markers, shade and cuts may be
 };
 
 /// An engine. `seed` and `steps` are members of its Parameters and rows of its table (is_top_level).

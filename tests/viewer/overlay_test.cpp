@@ -64,6 +64,7 @@ TEST_CASE("overlay: volumes and obstacles can be shown where a run uses some") {
   CHECK(has("xm12-fig5", kVolumes));
   CHECK_FALSE(has("xm12-fig5", kObstacles));
   CHECK(has("xm12-obstacle", kObstacles));
+  CHECK_FALSE(has("clear-trunk", kObstacles));  // a forest that shades alone would hide the tree
   CHECK(has("beside-wall", kObstacles));
   CHECK_FALSE(has("beside-wall", kVolumes));  // its markers are not used
   CHECK(has("space-oak", kVolumes));
