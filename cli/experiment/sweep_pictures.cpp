@@ -39,15 +39,6 @@ Box room_of(const SweepResults& results) {
   return room;
 }
 
-std::array<Vec3f, 8> corners_of(const Box& box) {
-  std::array<Vec3f, 8> corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = Vec3f((i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
-                       (i & 4) != 0 ? box.high.z : box.low.z);
-  }
-  return corners;
-}
-
 /// Draws trees from the folders of their runs.
 class Studio {
  public:
@@ -63,10 +54,11 @@ class Studio {
     Box room = room_;  // leaves reach beyond the wood
     room.low -= Vec3(job.leaves.length);
     room.high += Vec3(job.leaves.length);
-    const std::array<Vec3f, 8> corners = corners_of(room);
+    const std::array<Vec3, 8> around = corners(room);
+    const std::vector<Vec3f> points(around.begin(), around.end());
     RenderOptions options;
     options.width = options.height = side_;
-    options.room_for = corners;
+    options.room_for = points;
     options.with_occlusion = false;  // else drawing takes longer than growing, for shades too fine to be seen
     std::ostringstream png;
     write_png(renderer_->render({.mesh = &mesh, .skeleton = &tree}, options), png);
