@@ -113,7 +113,7 @@ RunRecord record_of(const nlohmann::json& object) {
 void write_run(const fs::path& runs, const Job& job, const Skeleton& tree, double seconds,
                std::uint64_t peak_memory_bytes, const std::vector<std::string>& warnings) {
   const std::string config = to_toml(job);
-  const std::string name = run_name(config);
+  const std::string name = RunNames().of(job);
   HalfFolder folder(half_folder(runs, name));
   OutputFiles files;
   files.add(folder.path() / kRunConfig) << config;

@@ -10,6 +10,7 @@
 #include "cli/text.h"
 #include "common/base/digest.h"
 #include "common/base/errors.h"
+#include "common/base/files.h"
 #include "common/config/file_paths.h"
 #include "common/config/provenance.h"
 
@@ -58,8 +59,15 @@ std::string flags_text(std::span<const Override> overrides) {
 
 }  // namespace
 
-std::string run_name(const std::string& complete_config) {
-  return digest_of(version() + "\n" + complete_config);
+std::string RunNames::of(const Job& job) {
+  std::string text = version() + "\n" + to_toml(job);
+  Job copy = independent_copy(job);
+  for_each_path(job_table(*copy.engine), &copy, [&](const std::filesystem::path& path) {
+    const auto [found, is_new] = digests_.try_emplace(path);
+    if (is_new) found->second = digest_of(read_file(path));
+    text += "\n" + found->second;
+  });
+  return digest_of(text);
 }
 
 SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
@@ -68,6 +76,7 @@ SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
   SweepPlan plan;
   plan.config = config;
   plan.flags = flags_text(overrides);
+  RunNames names;
   std::size_t count = 1;
   for (const Axis& axis : axes) {
     plan.keys.push_back(axis.key);
@@ -86,7 +95,7 @@ SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
     Job job = load_job(registry, config, all);
     make_paths_absolute(job_table(*job.engine), &job);
     run.config = to_toml(job);
-    run.name = run_name(run.config);
+    run.name = names.of(job);
     run.steps = job.steps();
     if (!job.engine->has_history) others.push_back(std::to_string(i));  // a family of its own
     run.family = families.emplace(others, families.size()).first->second;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ namespace ramify::cli {
 
 struct PlannedRun {
   std::vector<std::string> values;  // one an axis, TOML
-  std::string name;                 // of its folder: the digest of ramify's version and the complete config
+  std::string name;                 // of its folder: see RunNames
   std::string config;               // complete, TOML
   int steps = 0;
   /// Runs of one family differ in their steps alone and are cut from one growing tree.
@@ -36,8 +37,16 @@ inline constexpr std::size_t kMaxRuns = 10'000;
 SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
                      std::span<const Override> overrides, std::span<const Axis> axes);
 
-/// The name of the folder of a run with this complete config.
-std::string run_name(const std::string& complete_config);
+/// Names the folders of runs: by the digest of ramify's version, the complete config and the files that it
+/// names, so that a run is made anew when one of these has changed. Each file is read once.
+class RunNames {
+ public:
+  /// Throws InputError if a file cannot be read.
+  std::string of(const Job& job);
+
+ private:
+  std::map<std::filesystem::path, std::string> digests_;
+};
 
 /// Runs that one process makes: of one family, by rising steps.
 using Batch = std::vector<std::size_t>;  // indices of SweepPlan::runs

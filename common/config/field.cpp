@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 namespace ramify {
 namespace {
@@ -43,7 +45,7 @@ std::string allowed_values(const FieldRow& row) {
     case FieldKind::integer:
       return "a whole number, " + range_text(row.info);
     case FieldKind::seed:
-      return "a whole number, 0 or more";
+      return fmt::format("a whole number, 0 to {}", std::numeric_limits<std::int64_t>::max());  // TOML's most
     case FieldKind::boolean:
       return "true or false";
     case FieldKind::choice:

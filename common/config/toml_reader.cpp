@@ -33,6 +33,14 @@ std::string_view type_name(const toml::node& node) {
   }
 }
 
+/// What stands where something else should, a short text with its words.
+std::string described(const toml::node& node) {
+  constexpr std::size_t kShort = 40;  // bytes
+  const auto* text = node.as_string();
+  if (!text || text->get().size() > kShort) return std::string(type_name(node));
+  return fmt::format("a string, '{}'", text->get());
+}
+
 const FieldRow* find_row(const Table& table, std::string_view key) {
   const auto row = std::find_if(table.begin(), table.end(), [&](const FieldRow& r) { return r.key == key; });
   return row == table.end() ? nullptr : &*row;
@@ -97,7 +105,7 @@ class Reader {
       rows = &row.child();
       if (key.empty()) {
         const toml::table* values = node.as_table();
-        if (!values) fail(node, path, fmt::format("{} (a table)", type_name(node)));
+        if (!values) fail(node, path, fmt::format("{} (a table)", described(node)));
         return read_table(*rows, owner, *values, path);
       }
     }
@@ -205,20 +213,20 @@ class Reader {
 
   const toml::table& table(const FieldRow& row, const toml::node& node, const std::string& path) const {
     if (const toml::table* values = node.as_table()) return *values;
-    fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
   }
 
   /// An array is the whole list; a table, such as [pathplan.levels.2], changes the items it names.
   void read_list(const FieldRow& row, void* list, const toml::node& node, const std::string& path) {
     if (const toml::table* named = node.as_table()) return change_items(row, list, *named, path);
     const toml::array* items = node.as_array();
-    if (!items) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (!items) fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     row.clear(list);
     std::size_t number = 0;
     for (const toml::node& item : *items) {
       const std::string item_path = joined(path, std::to_string(++number));
       const toml::table* values = item.as_table();
-      if (!values) fail(item, item_path, fmt::format("{} (a table)", type_name(item)));
+      if (!values) fail(item, item_path, fmt::format("{} (a table)", described(item)));
       read_table(row.child(), row.append(list), *values, item_path);
     }
   }
@@ -228,7 +236,7 @@ class Reader {
       std::string item_path = path;
       void* item = listed_item(row, list, key.str(), item_path, value);
       const toml::table* values = value.as_table();
-      if (!values) fail(value, item_path, fmt::format("{} (a table)", type_name(value)));
+      if (!values) fail(value, item_path, fmt::format("{} (a table)", described(value)));
       read_table(row.child(), item, *values, item_path);
       origins_[item_path] = where(value);
     }
@@ -238,7 +246,7 @@ class Reader {
     for (const auto& [key, value] : table(row, node, path)) {
       const std::string item_path = joined(path, key.str());
       const toml::table* values = value.as_table();
-      if (!values) fail(value, item_path, fmt::format("{} (a table)", type_name(value)));
+      if (!values) fail(value, item_path, fmt::format("{} (a table)", described(value)));
       read_table(row.child(), row.named(map, std::string(key.str())), *values, item_path);
     }
   }
@@ -250,7 +258,7 @@ class Reader {
     } else if (const auto* real = node.as_floating_point()) {
       value = real->get();
     } else {
-      fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+      fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     }
     const FieldInfo& info = row.info;
     const bool is_allowed =
@@ -265,7 +273,7 @@ class Reader {
       const auto* real = node.as_floating_point();
       fail(node, path,
            real ? fmt::format("{} is no whole number ({})", real->get(), allowed_values(row))
-                : fmt::format("{} ({})", type_name(node), allowed_values(row)));
+                : fmt::format("{} ({})", described(node), allowed_values(row)));
     }
     const std::int64_t value = whole->get();
     const bool is_allowed =
@@ -276,7 +284,7 @@ class Reader {
 
   std::uint64_t seed(const FieldRow& row, const toml::node& node, const std::string& path) const {
     const auto* whole = node.as_integer();
-    if (!whole) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (!whole) fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     if (whole->get() < 0) {
       fail(node, path, fmt::format("{} is out of range ({})", whole->get(), allowed_values(row)));
     }
@@ -285,13 +293,13 @@ class Reader {
 
   bool boolean(const FieldRow& row, const toml::node& node, const std::string& path) const {
     const auto* value = node.as_boolean();
-    if (!value) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (!value) fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     return value->get();
   }
 
   int choice(const FieldRow& row, const toml::node& node, const std::string& path) const {
     const auto* text = node.as_string();
-    if (!text) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (!text) fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     const std::vector<std::string>& choices = row.info.choices;
     const auto found = std::find(choices.begin(), choices.end(), text->get());
     if (found == choices.end()) {
@@ -302,7 +310,7 @@ class Reader {
 
   Vec3 vector(const FieldRow& row, const toml::node& node, const std::string& path) const {
     const toml::array* items = node.as_array();
-    if (!items) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (!items) fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     if (items->size() != 3) {
       fail(node, path, fmt::format("a list of {} ({})", items->size(), allowed_values(row)));
     }
@@ -337,7 +345,7 @@ class Reader {
 
   std::string text(const FieldRow& row, const toml::node& node, const std::string& path) const {
     const auto* value = node.as_string();
-    if (!value) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (!value) fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     return value->get();
   }
 
@@ -351,7 +359,7 @@ class Reader {
 
   Sketch sketch(const FieldRow& row, const toml::node& node, const std::string& path) const {
     const toml::array* items = node.as_array();
-    if (!items) fail(node, path, fmt::format("{} ({})", type_name(node), allowed_values(row)));
+    if (!items) fail(node, path, fmt::format("{} ({})", described(node), allowed_values(row)));
     Sketch points;
     for (const toml::node& item : *items) {
       const std::string item_path = joined(path, std::to_string(points.size() + 1));
@@ -413,7 +421,7 @@ std::optional<std::string> TomlDocument::top_string(std::string_view key) const 
   const toml::node* node = parsed_->values.get(key);
   if (!node) return std::nullopt;
   if (const auto* text = node->as_string()) return text->get();
-  throw ConfigError(where(key), std::string(key), fmt::format("{} (a string)", type_name(*node)));
+  throw ConfigError(where(key), std::string(key), fmt::format("{} (a string)", described(*node)));
 }
 
 std::string TomlDocument::where(std::string_view key) const {

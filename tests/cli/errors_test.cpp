@@ -29,7 +29,7 @@ TEST_CASE("errors: bad configs are one line with file, line and key, exit code 2
        "ELF\x02\x01",
        "oak.toml:1: no TOML: "},
       {"engine = \"growth\"\nsteps = \"five\"\n",
-       "oak.toml:2: steps: a string (a whole number, 1 to 10000)\n"},
+       "oak.toml:2: steps: a string, 'five' (a whole number, 1 to 10000)\n"},
       {"engine = \"growth\"\nsteps = 0\n",
        "oak.toml:2: steps: 0 is out of range (a whole number, 1 to 10000)\n"},
       {"engine = \"growth\"\n[growth]\nbraching_angle_deg = 3\n",
@@ -43,8 +43,9 @@ TEST_CASE("errors: bad configs are one line with file, line and key, exit code 2
       {"engine = \"growth\"\n[growth]\nalpha = 1e308\n", "oak.toml:3: growth.alpha: 1e+308 is out of range"},
       {"engine = \"growth\"\n[growth]\nq_max = 1e308\n",
        "oak.toml:3: growth.q_max: 1e+308 is no whole number"},
+      {"engine = \"growth\"\nseed = 9223372036854775808\n", "oak.toml:2: no TOML: "},
       {"engine = \"pathplan\"\nseed = -4\n",
-       "oak.toml:2: seed: -4 is out of range (a whole number, 0 or more)\n"},
+       "oak.toml:2: seed: -4 is out of range (a whole number, 0 to 9223372036854775807)\n"},
   };
   for (const Case& c : cases) {
     std::ofstream(folder.file("oak.toml")) << c.text;
@@ -149,7 +150,7 @@ TEST_CASE("errors: commands, flags and values that are not known are named, with
   check_failure(run_program("generate s4-fig6 --set growth.lambda=7"), 2,
                 "--set: growth.lambda: 7 is out of range");
   check_failure(run_program("generate s4-fig6 --seed abc"), 2,
-                "--seed: seed: a string (a whole number, 0 or more)\n");
+                "--seed: seed: a string, 'abc' (a whole number, 0 to 9223372036854775807)\n");
   check_failure(run_program("generate s4-fig6 --steps 99999"), 2, "--steps: steps: 99999 is out of range");
   check_failure(run_program("generate xm12-fig5 --steps 5"), 2, "--steps: steps: ");
   check_failure(run_program("presets s4-fig66"), 2, "s4-fig66: no such preset (did you mean 's4-fig6'?)\n");

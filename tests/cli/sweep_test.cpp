@@ -221,6 +221,20 @@ TEST_CASE("sweep: a run's config means the same files from any folder") {
   CHECK(run_program("generate " + config + " -o a.glb --quiet", (folder.path() / "out").string()).code == 0);
 }
 
+TEST_CASE("sweep: a run is made again when a file that its config names has changed") {
+  const Folder folder;
+  std::ofstream(folder.file("leaf.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(folder.file("tree.toml")) << "base = \"s4-fig6\"\nsteps = 3\n[leaves]\nmesh = \"leaf.obj\"\n";
+  const auto name = [&] {
+    outcome_of("tree.toml --vary seed=1 -o out", folder);
+    return column(rows_of(read_file(folder.file("out/results.csv"))), "run")[0];
+  };
+  const std::string before = name();
+  CHECK(name() == before);
+  std::ofstream(folder.file("leaf.obj")) << "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";
+  CHECK(name() != before);
+}
+
 TEST_CASE("sweep: a run that fails has its row and does not stop the others") {
   const Folder folder;
   const Outcome outcome = sweep(
@@ -434,7 +448,7 @@ TEST_CASE("sweep: what is wrong is one line, before anything is made") {
   };
   refused("--vary growth.alpa=1,2 -o out",
           "--vary: growth.alpa: unknown key; did you mean 'growth.alpha'?\n");
-  refused("--vary growth.alpha=1,x -o out", "--vary: growth.alpha: a string (a number, 0 to 1000");
+  refused("--vary growth.alpha=1,x -o out", "--vary: growth.alpha: a string, 'x' (a number, 0 to 1000");
   refused("--vary growth.alpha=1,2000 -o out", "--vary: growth.alpha: 2000 is out of range (");
   refused("--vary growth.alpha -o out", "--vary: 'growth.alpha' is no KEY=LIST (a,b,c or from:to:step)\n");
   refused("--vary growth.alpha= -o out", "--vary: growth.alpha: a value is missing in '' (");
