@@ -30,7 +30,6 @@ std::vector<Demands> mean_demands(const Plant& plant, const std::vector<double>&
   std::vector<Demands> demands(plant.node_count(), Demands{});
   for (std::size_t i = 0; i < plant.buds.size(); ++i) {
     const Bud& bud = plant.buds[i];
-    if (bud.is_dead()) continue;
     demands[bud.node][side_of(bud)] += mean_demand(light[i], 1, exponent);
   }
   for (std::size_t node = 1; node < plant.node_count(); ++node) {
@@ -68,7 +67,7 @@ void share(const Plant& plant, double at_root, double lambda, const OfSides& dem
   parallel_for(plant.buds.size(), kBudsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Bud& bud = plant.buds[i];
-      vigour[i] = bud.is_dead() ? 0.0 : passed(bud.node, side_of(bud), of_bud(i));
+      vigour[i] = passed(bud.node, side_of(bud), of_bud(i));
     }
   });
 }

@@ -30,7 +30,7 @@ Lists list_items(const Plant& plant, const std::vector<double>& light, const std
   Lists lists;
   lists.first.assign(plant.axes.size() + 1, 0);
   for (const Bud& bud : plant.buds) {
-    if (!bud.is_dead()) ++lists.first[plant.axis[bud.node] + 1];
+    ++lists.first[plant.axis[bud.node] + 1];
   }
   for (std::size_t i = 1; i < plant.axes.size(); ++i) {
     if (!plant.is_cut(plant.axes[i].first)) ++lists.first[host_of(plant.axes[i]) + 1];
@@ -41,7 +41,6 @@ Lists list_items(const Plant& plant, const std::vector<double>& light, const std
   std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
   for (std::uint32_t i = 0; i < plant.buds.size(); ++i) {
     const Bud& bud = plant.buds[i];
-    if (bud.is_dead()) continue;
     lists.items[next[plant.axis[bud.node]]++] = {light[i], light[i], bud.node, i, false, bud.is_terminal};
   }
   for (std::uint32_t i = 1; i < plant.axes.size(); ++i) {

@@ -31,7 +31,7 @@ struct LightSum {
   double total() const { return light[kMain] + light[kLateral]; }
 };
 
-/// `light` has one entry a bud; a dead bud's must be 0. One entry a node. O(nodes).
+/// `light` has one entry a bud, of which none may be dead. One entry a node. O(nodes).
 void sum_light(const Plant& plant, const std::vector<double>& light, std::vector<LightSum>& sums);
 
 /// Sums of a value of buds over the subtree of each node.
