@@ -23,10 +23,11 @@ struct Lists {
   std::vector<Item> items;
 };
 
-Lists list_items(const Plant& plant, const std::vector<double>& light, const std::vector<LightSum>& sums,
+Lists list_items(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
                  bool is_ranked_by_total) {
   const auto base_of = [&](const Axis& axis) { return plant.parent[axis.first]; };
   const auto host_of = [&](const Axis& axis) { return plant.axis[base_of(axis)]; };
+  const std::vector<std::uint32_t> bud_count = bud_counts(plant);
   Lists lists;
   lists.first.assign(plant.axes.size() + 1, 0);
   for (const Bud& bud : plant.buds) {
@@ -46,8 +47,8 @@ Lists list_items(const Plant& plant, const std::vector<double>& light, const std
   for (std::uint32_t i = 1; i < plant.axes.size(); ++i) {
     const Axis& axis = plant.axes[i];
     if (plant.is_cut(axis.first)) continue;
-    const double total = sums[axis.first].total();
-    const std::uint32_t buds = sums[axis.first].buds;
+    const double total = sums.total(axis.first);
+    const std::uint32_t buds = bud_count[axis.first];
     const double mean = buds > 0 ? total / buds : 0.0;
     lists.items[next[host_of(axis)]++] = {total, is_ranked_by_total ? total : mean, base_of(axis), i, true,
                                           false};
@@ -63,9 +64,8 @@ double priority_weight(std::size_t i, std::size_t n, double w_max, double w_min,
   return place < range ? w_max - (w_max - w_min) * place / range : w_min;
 }
 
-void allocate_priority(const Plant& plant, const std::vector<double>& light,
-                       const std::vector<LightSum>& sums, const TreeParameters& tree, int step,
-                       std::vector<double>& vigour) {
+void allocate_priority(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
+                       const TreeParameters& tree, int step, std::vector<double>& vigour) {
   const double w_max = tree.w_max.at(step);
   const double w_min = tree.w_min.at(step);
   const double kappa = tree.kappa.at(step);

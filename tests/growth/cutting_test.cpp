@@ -82,7 +82,7 @@ TEST_CASE("shedding: an axis is judged by light an internode, not before its tim
   tree.shed_threshold = 0.5;
   Plant plant = forked();
   plant.buds.push_back({.node = 4, .is_terminal = true});
-  std::vector<LightSum> sums;
+  LightSums sums;
   sum_light(plant, {1.0}, sums);
   CHECK(shaded_axes(plant, sums, tree, 2).empty());  // 1 / 2 is not below
   sum_light(plant, {0.99}, sums);
@@ -100,7 +100,7 @@ TEST_CASE("shedding: by vigour an internode is judged by resource an internode, 
   tree.shed_threshold = 0.3;
   Plant plant = forked();
   plant.buds = {{.node = 4}, {.node = 5}};
-  std::vector<LightSum> sums;
+  LightSums sums;
   sum_light(plant, {0.0, 0.0}, sums);
   // Node 5 gets 0.2, nodes 2 to 5 0.2 / 2, 3 to 4 0.8 / 2, 1 all: 1 / 5.
   CHECK(starved_internodes(plant, sums, {0.8, 0.2}, tree, 1) == Nodes{1, 2, 5});
