@@ -140,7 +140,7 @@ Outcome cast_anew(Subjects& subjects) {
 template <class Allocate>
 Outcome pass_flat(Subjects& subjects, const Allocate& allocate) {
   const GrowingTree& tree = subjects.tree();
-  std::vector<LightSum> sums = tree.sums;
+  LightSums sums = tree.sums;
   std::vector<double> vigour = tree.vigour;
   return timed([&] {
     sum_light(tree.plant, tree.light, sums);

@@ -23,14 +23,15 @@ struct Lists {
   std::vector<Item> items;
 };
 
-Lists list_items(const Plant& plant, const std::vector<double>& light, const std::vector<LightSum>& sums,
+Lists list_items(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
                  bool is_ranked_by_total) {
   const auto base_of = [&](const Axis& axis) { return plant.parent[axis.first]; };
   const auto host_of = [&](const Axis& axis) { return plant.axis[base_of(axis)]; };
+  const std::vector<std::uint32_t> bud_count = bud_counts(plant);
   Lists lists;
   lists.first.assign(plant.axes.size() + 1, 0);
   for (const Bud& bud : plant.buds) {
-    if (!bud.is_dead()) ++lists.first[plant.axis[bud.node] + 1];
+    ++lists.first[plant.axis[bud.node] + 1];
   }
   for (std::size_t i = 1; i < plant.axes.size(); ++i) {
     if (!plant.is_cut(plant.axes[i].first)) ++lists.first[host_of(plant.axes[i]) + 1];
@@ -41,14 +42,13 @@ Lists list_items(const Plant& plant, const std::vector<double>& light, const std
   std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
   for (std::uint32_t i = 0; i < plant.buds.size(); ++i) {
     const Bud& bud = plant.buds[i];
-    if (bud.is_dead()) continue;
     lists.items[next[plant.axis[bud.node]]++] = {light[i], light[i], bud.node, i, false, bud.is_terminal};
   }
   for (std::uint32_t i = 1; i < plant.axes.size(); ++i) {
     const Axis& axis = plant.axes[i];
     if (plant.is_cut(axis.first)) continue;
-    const double total = sums[axis.first].total();
-    const std::uint32_t buds = sums[axis.first].buds;
+    const double total = sums.total(axis.first);
+    const std::uint32_t buds = bud_count[axis.first];
     const double mean = buds > 0 ? total / buds : 0.0;
     lists.items[next[host_of(axis)]++] = {total, is_ranked_by_total ? total : mean, base_of(axis), i, true,
                                           false};
@@ -64,9 +64,8 @@ double priority_weight(std::size_t i, std::size_t n, double w_max, double w_min,
   return place < range ? w_max - (w_max - w_min) * place / range : w_min;
 }
 
-void allocate_priority(const Plant& plant, const std::vector<double>& light,
-                       const std::vector<LightSum>& sums, const TreeParameters& tree, int step,
-                       std::vector<double>& vigour) {
+void allocate_priority(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
+                       const TreeParameters& tree, int step, std::vector<double>& vigour) {
   const double w_max = tree.w_max.at(step);
   const double w_min = tree.w_min.at(step);
   const double kappa = tree.kappa.at(step);

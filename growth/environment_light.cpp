@@ -34,7 +34,7 @@ void sense_light(const Plant& plant, const Parameters& world, const TreeParamete
       for (std::size_t i = begin; i < end; ++i) {
         // Buds stand in the order of their birth, their voxels anywhere: reading ahead hides the wait.
         if (i + kReadAhead < end) grid.prefetch(plant.buds[i + kReadAhead].site);
-        light[i] = plant.buds[i].is_dead() ? 0.0 : exposure(plant.buds[i]);
+        light[i] = exposure(plant.buds[i]);
       }
     });
   };

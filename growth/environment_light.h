@@ -9,7 +9,7 @@
 
 namespace ramify::growth {
 
-/// Light exposure Q of each bud of a tree, 0 for dead ones. Additive shadow: Q = max(C - s + a, 0), where a
+/// Light exposure Q of each bud of a tree. Additive shadow: Q = max(C - s + a, 0), where a
 /// bud whose own node (casters: metamers) or self (buds) casts gets its own shadow back: nothing shades
 /// itself. Multiplicative: C times the share of light that is left.
 void sense_light(const Plant& plant, const Parameters& world, const TreeParameters& tree,

@@ -50,7 +50,7 @@ void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step) {
     for (std::size_t i = 0; i < tree.plant.buds.size(); ++i) {
       const Bud& bud = tree.plant.buds[i];
       tree.space[i] = bud.direction;
-      if (bud.is_dead() || bud.is_blind || markers.is_barren(tree.plant.position[bud.node])) continue;
+      if (bud.is_blind || markers.is_barren(tree.plant.position[bud.node])) continue;
       seekers.push_back({tree.plant.position[bud.node], Vec3(bud.direction), radius, min_cosine});
       tree.light[i] = 1.0;  // that it looks; for the second pass
     }

@@ -20,7 +20,7 @@ struct GrowingTree {
   std::vector<double> vigour;  // v
   std::vector<Vec3f> space;    // V; with environment = space only
 
-  std::vector<LightSum> sums;         // one entry a node, as allocation leaves it
+  LightSums sums;                     // as allocation leaves them
   double resource = 0.0;              // v at the root
   std::vector<std::uint32_t> shaded;  // the nodes that are shed for want of light in this step
 };

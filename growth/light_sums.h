@@ -22,17 +22,22 @@ inline Side side_of(const Plant& plant, std::size_t node) {
   return static_cast<Side>(plant.founds_axis[node]);
 }
 
-/// At a node, over its buds and all beyond them.
-struct LightSum {
-  std::array<double, 2> light{};  // of each side
-  std::uint32_t buds = 0;         // how many buds
-  std::uint32_t internodes = 0;   // how many living internodes, the node's own included
+/// Something of each side of a node.
+using Sides = std::array<double, 2>;
 
-  double total() const { return light[kMain] + light[kLateral]; }
+/// At each node, over its buds and all beyond them.
+struct LightSums {
+  std::vector<Sides> light;
+  std::vector<std::uint32_t> internodes;  // how many living ones, the node's own included
+
+  double total(std::size_t node) const { return light[node][kMain] + light[node][kLateral]; }
 };
 
-/// `light` has one entry a bud; a dead bud's must be 0. One entry a node. O(nodes).
-void sum_light(const Plant& plant, const std::vector<double>& light, std::vector<LightSum>& sums);
+/// `light` has one entry a bud, of which none may be dead. O(nodes).
+void sum_light(const Plant& plant, const std::vector<double>& light, LightSums& sums);
+
+/// How many buds each node and all beyond it have. O(nodes).
+std::vector<std::uint32_t> bud_counts(const Plant& plant);
 
 /// Sums of a value of buds over the subtree of each node.
 std::vector<double> subtree_sums(const Plant& plant, const std::vector<double>& values);

@@ -184,12 +184,15 @@ Markers::Markers(const Solid& solid, double volume, double density, std::uint64_
   if (box_.is_empty()) box_ = {Vec3(0.0), Vec3(0.0)};
   box_size_ = box_.size();
 
-  std::vector<Vec3f> offsets(static_cast<std::size_t>(std::max(0.0, wanted)));
-  parallel_for(offsets.size(), kDrawGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) offsets[i] = draw_offset(solid, box_, seed, i);
+  lay_out_cells(wanted);
+  std::vector<Drawn> drawn(static_cast<std::size_t>(std::max(0.0, wanted)));
+  parallel_for(drawn.size(), kDrawGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      drawn[i].offset = draw_offset(solid, box_, seed, i);
+      drawn[i].cell = static_cast<std::uint32_t>(index_of(cell_of(Vec3(drawn[i].offset))));
+    }
   });
-  lay_out_cells(static_cast<double>(offsets.size()));
-  sort_into_cells(offsets);
+  sort_into_cells(drawn);
 }
 
 void Markers::lay_out_cells(double marker_count) {
@@ -203,10 +206,9 @@ void Markers::lay_out_cells(double marker_count) {
   dilation_ = edge_ < reach_ * (1.0 + kCellSlack) ? kCellsAReach : 1;
 }
 
-void Markers::sort_into_cells(std::span<const Vec3f> offsets) {
-  const Coord last = size_ - 1;
-  cells_.assign(index_of(last) + 1, {});
-  for (const Vec3f& offset : offsets) ++cells_[index_of(cell_of(Vec3(offset)))].end;
+void Markers::sort_into_cells(std::span<const Drawn> drawn) {
+  cells_.assign(index_of(size_ - 1) + 1, {});
+  for (const Drawn& marker : drawn) ++cells_[marker.cell].end;
   std::uint32_t begin = 0;
   for (Cell& cell : cells_) {
     const std::uint32_t cell_count = cell.end;
@@ -214,26 +216,43 @@ void Markers::sort_into_cells(std::span<const Vec3f> offsets) {
     begin += cell_count;
   }
 
-  const std::size_t padded = offsets.size() + kLanes;
+  const std::size_t padded = drawn.size() + kLanes;
   x_.assign(padded, kNowhere);
   y_.assign(padded, kNowhere);
   z_.assign(padded, kNowhere);
-  best_.assign(offsets.size(), kNoBid);
-  for (const Vec3f& offset : offsets) {
-    const std::uint32_t place = cells_[index_of(cell_of(Vec3(offset)))].end++;
-    x_[place] = offset.x;
-    y_[place] = offset.y;
-    z_[place] = offset.z;
+  best_.assign(drawn.size(), kNoBid);
+  for (const Drawn& marker : drawn) {
+    const std::uint32_t place = cells_[marker.cell].end++;
+    x_[place] = marker.offset.x;
+    y_[place] = marker.offset.y;
+    z_[place] = marker.offset.z;
   }
-  count_ = offsets.size();
+  count_ = drawn.size();
+  count_neighbours();
+}
 
-  neighbours_.assign(cells_.size(), 0);
-  for (int z = 0; z < size_.z; ++z) {
-    for (int y = 0; y < size_.y; ++y) {
-      for (int x = 0; x < size_.x; ++x) {
-        if (!cells_[index_of({x, y, z})].is_empty()) add_to_neighbourhood({x, y, z}, 1);
+/// Along one axis after the other.
+void Markers::count_neighbours() {
+  neighbours_.resize(cells_.size());
+  std::transform(cells_.begin(), cells_.end(), neighbours_.begin(),
+                 [](const Cell& cell) { return static_cast<std::uint8_t>(!cell.is_empty()); });
+  std::size_t stride = 1;  // from a cell to the next along the axis
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto length = static_cast<std::size_t>(size_[axis]);
+    const auto dilation = static_cast<std::size_t>(dilation_);
+    const std::vector<std::uint8_t> before = neighbours_;
+    for (std::size_t shift = 1; shift <= std::min(dilation, length - 1); ++shift) {
+      // Blocks of cells among which the axis runs from end to end.
+      for (std::size_t block = 0; block < before.size(); block += length * stride) {
+        const std::size_t apart = shift * stride;
+        const std::size_t count = length * stride - apart;
+        for (std::size_t i = block; i < block + count; ++i) {
+          neighbours_[i] = static_cast<std::uint8_t>(neighbours_[i] + before[i + apart]);
+          neighbours_[i + apart] = static_cast<std::uint8_t>(neighbours_[i + apart] + before[i]);
+        }
       }
     }
+    stride *= length;
   }
 }
 

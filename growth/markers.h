@@ -70,11 +70,16 @@ class Markers {
 
     bool is_empty() const { return begin == end; }
   };
+  struct Drawn {
+    Vec3f offset;
+    std::uint32_t cell = 0;
+  };
   struct Cone;
   struct View;
 
   void lay_out_cells(double marker_count);
-  void sort_into_cells(std::span<const Vec3f> offsets);
+  void sort_into_cells(std::span<const Drawn> drawn);
+  void count_neighbours();
   void remove_within(const Vec3& point, double radius, std::vector<std::uint32_t>& room);
   void add_to_neighbourhood(const Coord& cell, std::uint8_t amount);
   void sort_into_bricks(std::span<const Seeker> seekers, std::vector<Claim>& claims);

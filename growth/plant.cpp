@@ -1,5 +1,7 @@
 #include "growth/plant.h"
 
+#include <bit>
+
 #include "common/base/rng.h"
 
 namespace ramify::growth {
@@ -7,52 +9,91 @@ namespace {
 
 // Which values stay is hard to foretell, so the loops below do not branch on it.
 
-template <class T>
-void close_holes(std::vector<T>& values, const std::vector<std::uint32_t>& new_index) {
+/// Places numbered anew, without holes. A bit a place and a count for each 64 of them: so small that it stays
+/// in the cache, whichever places are asked for.
+class Numbering {
+ public:
+  template <class IsHole>
+  Numbering(std::size_t count, const IsHole& is_hole) : words_(count / kBits + 1) {
+    for (std::size_t i = 0; i < count; ++i) {
+      words_[i / kBits].stays |= std::uint64_t{!is_hole(i)} << i % kBits;
+    }
+    for (std::size_t i = 1; i < words_.size(); ++i) {
+      words_[i].before = words_[i - 1].before + count_of(words_[i - 1].stays);
+    }
+  }
+
+  bool stays(std::size_t place) const { return (words_[place / kBits].stays >> place % kBits & 1) != 0; }
+
+  /// The new number of a place that stays.
+  std::uint32_t operator()(std::uint32_t place) const {
+    const Word& word = words_[place / kBits];
+    return word.before + count_of(word.stays & ((std::uint64_t{1} << place % kBits) - 1));
+  }
+
+ private:
+  static constexpr std::size_t kBits = 64;
+  struct Word {
+    std::uint64_t stays = 0;   // a bit a place
+    std::uint32_t before = 0;  // how many places stay before these
+  };
+
+  static std::uint32_t count_of(std::uint64_t bits) {
+    return static_cast<std::uint32_t>(std::popcount(bits));
+  }
+
+  std::vector<Word> words_;
+};
+
+/// Leaves out what stands in the holes and puts `renewed` in place of the others.
+template <class T, class Renewed>
+void close_holes(std::vector<T>& values, const Numbering& numbering, const Renewed& renewed) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[kept] = values[i];
-    kept += new_index[i] != kNone;
+    values[kept] = renewed(values[i]);
+    kept += numbering.stays(i);
   }
   values.resize(kept);
 }
 
-/// The places 0 .. count - 1 numbered anew, without those for which `is_hole`.
-template <class IsHole>
-std::vector<std::uint32_t> numbered(std::size_t count, const IsHole& is_hole) {
-  std::vector<std::uint32_t> new_index(count);
-  std::uint32_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool stays = !is_hole(i);
-    new_index[i] = stays ? kept : kNone;
-    kept += stays;
-  }
-  return new_index;
+template <class T>
+void close_holes(std::vector<T>& values, const Numbering& numbering) {
+  close_holes(values, numbering, [](const T& value) { return value; });
 }
 
 void close_nodes(Plant& plant) {
   // An axis is gone with its first node.
-  const auto new_axis =
-      numbered(plant.axes.size(), [&](std::size_t i) { return plant.is_cut(plant.axes[i].first); });
-  const auto new_node = numbered(plant.node_count(), [&](std::size_t node) { return plant.is_cut(node); });
-  close_holes(plant.axes, new_axis);
-  for (Axis& axis : plant.axes) axis.first = new_node[axis.first];
+  const Numbering new_axis(plant.axes.size(),
+                           [&](std::size_t i) { return plant.is_cut(plant.axes[i].first); });
+  const Numbering new_node(plant.node_count(), [&](std::size_t node) { return plant.is_cut(node); });
+  close_holes(plant.axes, new_axis, [&](Axis axis) {
+    axis.first = new_node(axis.first);
+    return axis;
+  });
   close_holes(plant.position, new_node);
-  close_holes(plant.parent, new_node);
-  close_holes(plant.axis, new_node);
+  close_holes(plant.parent, new_node,
+              [&](std::uint32_t parent) { return parent == kNone ? kNone : new_node(parent); });
+  close_holes(plant.axis, new_node, [&](std::uint32_t axis) { return new_axis(axis); });
   close_holes(plant.founds_axis, new_node);
   close_holes(plant.birth_step, new_node);
   close_holes(plant.lost_tips, new_node);
   close_holes(plant.id, new_node);
-  for (std::uint32_t& axis : plant.axis) axis = new_axis[axis];
-  for (std::size_t node = 1; node < plant.node_count(); ++node) {
-    plant.parent[node] = new_node[plant.parent[node]];
-  }
-  for (Bud& bud : plant.buds) {
-    if (bud.is_dead()) continue;
-    bud.node = new_node[bud.node];
-  }
+  for (Bud& bud : plant.buds) bud.node = new_node(bud.node);
   plant.cut_nodes = 0;
+}
+
+void close_buds(Plant& plant) {
+  Bud* const buds = plant.buds.data();
+  const std::uint32_t* const parent = plant.parent.data();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
+    const Bud bud = buds[i];
+    const std::uint32_t node = bud.is_dead() ? 0 : bud.node;
+    const bool is_cut = (node != 0) & (parent[node] == kNone);
+    buds[kept] = bud;
+    kept += !(bud.is_dead() | is_cut);
+  }
+  plant.buds.resize(kept);
 }
 
 }  // namespace
@@ -77,14 +118,9 @@ Plant seedling(const TreePlace& place, Site site) {
 }
 
 void compact(Plant& plant, double share) {
-  const auto has_many = [share](std::uint32_t holes, std::size_t size) {
-    return holes > 0 && double(holes) >= share * double(size);
-  };
-  if (has_many(plant.cut_nodes, plant.node_count())) close_nodes(plant);
-  if (has_many(plant.dead_buds, plant.buds.size())) {
-    std::erase_if(plant.buds, [](const Bud& bud) { return bud.is_dead(); });
-    plant.dead_buds = 0;
-  }
+  close_buds(plant);
+  const bool has_many = double(plant.cut_nodes) >= share * double(plant.node_count());
+  if (plant.cut_nodes > 0 && has_many) close_nodes(plant);
 }
 
 }  // namespace ramify::growth

@@ -25,8 +25,9 @@ struct Axis {
 };
 
 struct Bud {
-  std::uint32_t node = 0;    // where it stands, on the axis it continues or branches off; kNone: dead
-  Site site = 0;             // the node's voxel
+  std::uint32_t node =
+      0;          // where it stands, on the axis it continues or branches off; kNone: dead in this step
+  Site site = 0;  // the node's voxel
   Vec3f direction{0, 1, 0};  // unit, default direction of its first metamer
   std::uint16_t birth_step = 0;
   bool is_terminal = false;
@@ -46,11 +47,10 @@ struct Plant {
   std::vector<std::uint32_t> id;          // how many nodes were made before it; only where a history is kept
 
   std::vector<Axis> axes;
-  std::vector<Bud> buds;  // by node; the dead anywhere
+  std::vector<Bud> buds;  // by node; those that died in a step stay to its end
 
   std::uint32_t axes_founded = 0;  // ever, the trunk too
   std::uint32_t cut_nodes = 0;     // holes in the arrays
-  std::uint32_t dead_buds = 0;     // likewise
 
   std::size_t node_count() const { return position.size(); }  // holes too
   std::size_t internode_count() const { return position.size() - cut_nodes - 1; }
@@ -80,7 +80,8 @@ void set_size(std::vector<T>& values, std::size_t size) {
 /// The state of step 0: a terminal bud at the root, pointing up.
 Plant seedling(const TreePlace& place, Site site);
 
-/// Closes the holes in nodes, axes and buds if at least this share of them are holes.
+/// Takes out the dead buds and those on wood that is cut away, and closes the holes in nodes and axes if at
+/// least this share of the nodes are holes.
 void compact(Plant& plant, double share);
 
 }  // namespace ramify::growth

@@ -10,20 +10,20 @@ double threshold_of(ShedBy way, const TreeParameters& tree, int step) {
 
 }  // namespace
 
-std::vector<std::uint32_t> shaded_axes(const Plant& plant, const std::vector<LightSum>& sums,
-                                       const TreeParameters& tree, int step) {
+std::vector<std::uint32_t> shaded_axes(const Plant& plant, const LightSums& sums, const TreeParameters& tree,
+                                       int step) {
   const double threshold = threshold_of(ShedBy::light, tree, step);
   std::vector<std::uint32_t> shaded;
   if (threshold <= 0.0) return shaded;
   for (std::size_t i = 1; i < plant.axes.size(); ++i) {
     const std::uint32_t first = plant.axes[i].first;
-    const bool is_shaded = sums[first].total() < threshold * sums[first].internodes;
+    const bool is_shaded = sums.total(first) < threshold * sums.internodes[first];
     if (is_shaded && !plant.is_cut(first)) shaded.push_back(first);
   }
   return shaded;
 }
 
-std::vector<std::uint32_t> starved_internodes(const Plant& plant, const std::vector<LightSum>& sums,
+std::vector<std::uint32_t> starved_internodes(const Plant& plant, const LightSums& sums,
                                               const std::vector<double>& vigour, const TreeParameters& tree,
                                               int step) {
   const double threshold = threshold_of(ShedBy::vigour, tree, step);
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> starved_internodes(const Plant& plant, const std::vec
   const std::vector<double> received = subtree_sums(plant, vigour);
   for (std::uint32_t node = 1; node < plant.node_count(); ++node) {
     if (plant.is_cut(node)) continue;
-    if (received[node] < threshold * sums[node].internodes) starved.push_back(node);
+    if (received[node] < threshold * sums.internodes[node]) starved.push_back(node);
   }
   return starved;
 }

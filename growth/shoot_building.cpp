@@ -56,7 +56,6 @@ class Builder {
  private:
   void spend(const Shoot& shoot) {
     plant_.buds[shoot.bud].node = kNone;
-    ++plant_.dead_buds;
     if (buds_cast_) changes_.removed.push_back(traces_.voxel[shoot.first]);
   }
 
@@ -121,7 +120,6 @@ class Builder {
       plant_.buds.push_back(bud);
     } else {
       plant_.buds[spent] = bud;
-      --plant_.dead_buds;
     }
   }
 
@@ -148,7 +146,6 @@ void build_shoots(Plant& plant, std::span<const Shoot> shoots, const Traces& tra
 
 void sort_buds(Plant& plant) {
   std::erase_if(plant.buds, [](const Bud& bud) { return bud.is_dead(); });
-  plant.dead_buds = 0;
   std::stable_sort(plant.buds.begin(), plant.buds.end(),
                    [](const Bud& a, const Bud& b) { return a.node < b.node; });
 }
@@ -162,7 +159,6 @@ void abort_buds(Plant& plant, const Parameters& world, const TreeParameters& tre
     if (bud.is_dead() || step - bud.birth_step < lifespan) continue;
     if (buds_cast) changes.removed.push_back(shadow.voxel_of(plant.position[bud.node]));
     bud.node = kNone;
-    ++plant.dead_buds;
   }
 }
 

@@ -18,6 +18,8 @@ namespace {
 // Holes are closed when they are this share of an array: copying often costs more than skipping them.
 constexpr double kHoleShare = 0.1;
 
+constexpr std::size_t kReadAhead = 16;
+
 // Shoots that are traced before they are built: so many that all threads have enough to do, so few that their
 // nodes stay in the cache in between. No shoot sees another of its step, whatever their number.
 constexpr std::size_t kShootsAtOnce = 4096;
@@ -144,6 +146,8 @@ void Simulation::lose(int step) {
     for (const GrowingTree& tree : trees_) drop_leaves(tree, step);
   }
   for (GrowingTree& tree : trees_) {
+    // Those that cast nothing go without a word when holes are closed.
+    if (world_.casters == Casters::buds) lose_buds(tree.plant);
     abort_buds(tree.plant, world_, tree.place, shadow_, step, changes_);
   }
 }
@@ -170,7 +174,9 @@ void Simulation::extend(GrowingTree& tree, int step) {
 void Simulation::shed_starved(int step) {
   for (GrowingTree& tree : trees_) {
     const auto starved = starved_internodes(tree.plant, tree.sums, tree.vigour, tree.place, step);
+    if (starved.empty()) continue;
     cut(tree, nodes_beyond(tree.plant, starved), step);
+    lose_buds(tree.plant);
   }
 }
 
@@ -199,20 +205,25 @@ void Simulation::drop_leaves(const GrowingTree& tree, int step) {
 void Simulation::cut(GrowingTree& tree, const std::vector<std::uint32_t>& nodes, int step) {
   if (nodes.empty()) return;
   Plant& plant = tree.plant;
-  for (const std::uint32_t node : nodes) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i + kReadAhead < nodes.size()) __builtin_prefetch(&plant.position[nodes[i + kReadAhead]]);
+    const std::uint32_t node = nodes[i];
     if (tree.history) tree.history->shed_step[plant.id[node]] = static_cast<std::uint16_t>(step);
     const bool casts =
         !markers_ && world_.casters == Casters::metamers && has_leaves(world_, plant.birth_step[node], step);
     if (casts) changes_.removed.push_back(caster_of(plant, node, world_, shadow_));
   }
   cut_away(plant, nodes);
+}
+
+/// Buds on wood that is cut away die.
+void Simulation::lose_buds(Plant& plant) {
   for (Bud& bud : plant.buds) {
     if (bud.is_dead() || !plant.is_cut(bud.node)) continue;
     if (!markers_ && world_.casters == Casters::buds) {
       changes_.removed.push_back(shadow_.voxel_of(plant.position[bud.node]));
     }
     bud.node = kNone;
-    ++plant.dead_buds;
   }
 }
 

@@ -45,6 +45,7 @@ class Simulation {
   void close_holes();
   void prune(int step);
   void cut(GrowingTree& tree, const std::vector<std::uint32_t>& nodes, int step);
+  void lose_buds(Plant& plant);
 
   const Parameters& world_;
   ShadowGrid shadow_;

@@ -52,7 +52,7 @@ void take_history(History& history, Skeleton& skeleton) {
 Skeleton skeleton_of(GrowingTree tree, const Parameters& world) {
   static_assert(kNone == kNoParent);
   Plant& plant = tree.plant;
-  release(tree.sums);
+  tree.sums = {};
   release(tree.space);
   compact(plant, 0.0);
 

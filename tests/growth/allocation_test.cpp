@@ -18,7 +18,7 @@ namespace {
 struct Fork {
   Plant plant;
   std::vector<double> light = {0.5, 0.25, 1.0};  // terminal, axillary, lateral's terminal
-  std::vector<LightSum> sums;
+  LightSums sums;
 
   Fork() {
     plant = test::seedling();
@@ -43,12 +43,12 @@ bool is_near(double a, double b) {
 
 TEST_CASE("light sums: each node has what its buds and all beyond them get") {
   const Fork fork;
-  CHECK(fork.sums[0].total() == 1.75);
-  CHECK(fork.sums[1].light[kMain] == 0.5);
-  CHECK(fork.sums[1].light[kLateral] == 1.25);
-  CHECK(fork.sums[0].buds == 3);
-  CHECK(fork.sums[2].buds == 1);
-  CHECK(fork.sums[1].internodes == 2);
+  CHECK(fork.sums.total(0) == 1.75);
+  CHECK(fork.sums.light[1][kMain] == 0.5);
+  CHECK(fork.sums.light[1][kLateral] == 1.25);
+  CHECK(bud_counts(fork.plant)[0] == 3);
+  CHECK(bud_counts(fork.plant)[2] == 1);
+  CHECK(fork.sums.internodes[1] == 2);
 }
 
 TEST_CASE("Borchert-Honda: a fork shares by lambda times light") {
@@ -126,7 +126,7 @@ TEST_CASE("priority: among equals the one nearest the tip leads, the terminal bu
   plant.buds = {
       {.node = 1, .is_terminal = false}, {.node = 2, .is_terminal = false}, {.node = 2, .is_terminal = true}};
   const std::vector<double> light = {1.0, 1.0, 1.0};
-  std::vector<LightSum> sums;
+  LightSums sums;
   sum_light(plant, light, sums);
   Parameters parameters;
   parameters.kappa = 1.0;

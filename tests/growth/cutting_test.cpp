@@ -62,11 +62,11 @@ TEST_CASE("cutting: what has grown since from nodes that go goes with them") {
 TEST_CASE("cutting: closing the holes leaves the living as they were") {
   Plant plant = forked();
   plant.position[5] = {5, 5, 5};
-  plant.buds = {{.node = kNone}, {.node = 5, .is_terminal = true}};
-  plant.dead_buds = 1;
+  plant.buds = {{.node = kNone}, {.node = 4}, {.node = 5, .is_terminal = true}};
   cut_away(plant, nodes_beyond(plant, {3}));
   compact(plant, 0.9);
   CHECK(plant.node_count() == 6);  // not enough of them yet
+  CHECK(plant.buds.size() == 1);
   compact(plant, 0.0);
   CHECK(plant.node_count() == 4);
   CHECK(plant.axes.size() == 1);
@@ -82,7 +82,7 @@ TEST_CASE("shedding: an axis is judged by light an internode, not before its tim
   tree.shed_threshold = 0.5;
   Plant plant = forked();
   plant.buds.push_back({.node = 4, .is_terminal = true});
-  std::vector<LightSum> sums;
+  LightSums sums;
   sum_light(plant, {1.0}, sums);
   CHECK(shaded_axes(plant, sums, tree, 2).empty());  // 1 / 2 is not below
   sum_light(plant, {0.99}, sums);
@@ -100,7 +100,7 @@ TEST_CASE("shedding: by vigour an internode is judged by resource an internode, 
   tree.shed_threshold = 0.3;
   Plant plant = forked();
   plant.buds = {{.node = 4}, {.node = 5}};
-  std::vector<LightSum> sums;
+  LightSums sums;
   sum_light(plant, {0.0, 0.0}, sums);
   // Node 5 gets 0.2, nodes 2 to 5 0.2 / 2, 3 to 4 0.8 / 2, 1 all: 1 / 5.
   CHECK(starved_internodes(plant, sums, {0.8, 0.2}, tree, 1) == Nodes{1, 2, 5});
@@ -130,9 +130,7 @@ TEST_CASE("shedding: in a run whole axes go, the trunk never, and none of their 
     const auto below = history.shed_step[history.parent[node]];
     if (below != kAlive) CHECK(history.shed_step[node] <= below);
   }
-  for (const Bud& bud : tree.plant.buds) {
-    if (!bud.is_dead()) CHECK_FALSE(tree.plant.is_cut(bud.node));
-  }
+  for (const Bud& bud : tree.plant.buds) CHECK_FALSE((bud.is_dead() || tree.plant.is_cut(bud.node)));
 }
 
 TEST_CASE("pruning: an event is due at its step, and again after so many") {

@@ -7,6 +7,7 @@
 #include "common/base/parallel.h"
 #include "common/format/skeleton_table.h"
 #include "common/skeleton/passes.h"
+#include "growth/simulation.h"
 #include "tests/catch.h"
 #include "tests/growth/runs.h"
 
@@ -168,6 +169,27 @@ TEST_CASE("growth: the pipe rule holds at every node of the history, and living 
     }
   }
   CHECK(shed > 1000);
+}
+
+TEST_CASE("growth: the root has the light and vigour of all buds") {
+  // In the first of them few buds die in the last step.
+  for (const char* preset : {"s4-fig4", "space-oak", "p09-fig7-50"}) {
+    INFO(preset);
+    const Parameters parameters = growth_parameters(preset, {"steps=9"});
+    Simulation simulation(parameters);
+    while (simulation.step() < parameters.steps) REQUIRE(simulation.advance());
+    simulation.sense();
+    const GrowingTree& tree = simulation.trees()[0];
+    double light = 0.0;
+    double vigour = 0.0;
+    for (std::size_t i = 0; i < tree.plant.buds.size(); ++i) {
+      light += tree.light[i];
+      vigour += tree.vigour[i];
+    }
+    const Skeleton skeleton = grow(parameters);
+    CHECK(skeleton.light[0] == Approx(light));
+    CHECK(skeleton.vigour[0] == Approx(vigour));
+  }
 }
 
 TEST_CASE("growth: S4 Fig. 3, all weight on the default direction, lies in one plane") {
