@@ -252,14 +252,14 @@ std::vector<std::string> notes_on(const std::vector<Source>& sources, const Grow
 }
 
 /// Draws the plots beside the report where there is gnuplot, and keeps the SVGs for it.
-void draw_distributions(CompareResults& results, ResultFolder& folder) {
+void draw_distributions(CompareResults& results, ResultFolder& folder, int processes) {
   results.plots = distribution_plots(results.subjects);
   if (!has_gnuplot()) return;
   std::vector<Plot> plots;
   for (const DistributionPlot& distribution : results.plots) plots.push_back(distribution.plot);
   const std::filesystem::path place = folder.staging() / "plots";
   std::filesystem::create_directory(place);
-  draw_plots(plots, place);
+  draw_plots(plots, place, processes);
   for (const Plot& plot : plots) results.plot_svgs.push_back(read_file(place / (plot.name + ".svg")));
 }
 
@@ -311,7 +311,7 @@ void compare(CompareFlags flags, const Session& session) {
     bar.show({"distances", static_cast<double>(done), static_cast<double>(total), "pair"});
     if (session.stop.stop_requested()) throw Interrupted();
   });
-  draw_distributions(results, folder);
+  draw_distributions(results, folder, flags.reading.running.threads);
   bar.clear();
 
   for (const TreePicture& picture : results.pictures) folder.write("pictures/" + picture.name, picture.png);

@@ -110,6 +110,13 @@ RunRecord record_of(const nlohmann::json& object) {
 
 }  // namespace
 
+std::optional<double> metric_of(const RunRecord& record, std::string_view key) {
+  for (std::size_t k = 0; k < metric_table().size(); ++k) {
+    if (metric_table()[k].key == key) return record.metrics[k];
+  }
+  return std::nullopt;
+}
+
 void write_run(const fs::path& runs, const Job& job, const Skeleton& tree, double seconds,
                std::uint64_t peak_memory_bytes, const std::vector<std::string>& warnings) {
   const std::string config = to_toml(job);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/geometry.h"
@@ -21,6 +22,9 @@ struct RunRecord {
   Box extent;                         // of the wood, metres
   std::vector<std::string> warnings;  // a limit that it stopped at, for instance
 };
+
+/// One of its metrics, by the key of metric_table().
+std::optional<double> metric_of(const RunRecord& record, std::string_view key);
 
 /// The names of the files in a run's folder.
 inline constexpr const char* kRunConfig = "config.toml";

@@ -36,7 +36,8 @@ inline constexpr std::size_t kMaxRuns = 10'000;
 SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
                      std::span<const Override> overrides, std::span<const Axis> axes);
 
-/// The name of the folder of a run with this complete config.
+/// The name of the folder of a run with this complete config, kRunNameLength hexadecimal digits.
+inline constexpr std::size_t kRunNameLength = 16;
 std::string run_name(const std::string& complete_config);
 
 /// Runs that one process makes: of one family, by rising steps.
