@@ -399,6 +399,81 @@ TEST_CASE("sweep: all pictures are at one scale, and drawn anew only if it chang
   CHECK(after.size() == 5);
 }
 
+TEST_CASE("sweep: pictures have the same bytes whoever draws them, and only those that lack are drawn") {
+  const Folder folder;
+  outcome_of("s4-fig6 --vary seed=1:5:1 --threads 1 -o one", folder);
+  outcome_of("s4-fig6 --vary seed=1:5:1 --threads 3 -o three", folder);
+  const auto pictures = files_of(folder.path() / "one/pictures");
+  CHECK(pictures.size() == 5 + 1);  // and their scale
+  CHECK(files_of(folder.path() / "three/pictures") == pictures);
+  CHECK(read_file(folder.file("one/contact-sheet.png")) == read_file(folder.file("three/contact-sheet.png")));
+
+  const fs::path taken = folder.path() / "one/pictures" / pictures.begin()->first;
+  std::map<std::string, fs::file_time_type> times;
+  for (const auto& entry : fs::directory_iterator(taken.parent_path()))
+    times[entry.path()] = entry.last_write_time();
+  fs::remove(taken);
+  CHECK(run_program("sweep -o one --collect --quiet", folder.path().string()).code == 0);
+  CHECK(files_of(folder.path() / "one/pictures") == pictures);
+  for (const auto& [path, time] : times) CHECK((fs::last_write_time(path) == time) == (path != taken));
+}
+
+TEST_CASE("sweep: without anything to draw with the report says so") {
+  const Folder folder;
+  const Outcome outcome =
+      run_program("sweep s4-fig6 --vary growth.alpha=1.5,2 --steps 4 -o out --quiet", folder.path().string(),
+                  "env __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null ");
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const std::string html = read_file(folder.file("out/report.html"));
+  CHECK(html.find("There are no pictures: no OpenGL 3.3 to draw with: ") != std::string::npos);
+  CHECK(check_page(html) == count_of(html, "<img src=\"data:image/svg"));
+}
+
+TEST_CASE("sweep: a process that is killed while it draws costs one picture, which the next sweep draws") {
+  const Folder folder;
+  const std::string command = "'" + program_path() + "' sweep p09-fig7-50 --vary seed=1:4:1 -o out --quiet";
+  const Outcome outcome = run_shell(command +
+                                        " --threads 1 & sweep=$!\n"
+                                        "for i in $(seq 3000); do\n"
+                                        "  ls out/pictures/*.png >/dev/null 2>&1 && break; sleep 0.01\n"
+                                        "done\n"
+                                        "kill -9 $(cat /proc/$sweep/task/$sweep/children); wait $sweep",
+                                    folder.path().string());
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  const std::string html = read_file(folder.file("out/report.html"));
+  CHECK(html.find("Pictures are missing: ended by signal 9 (Killed)") != std::string::npos);
+  CHECK(count_of(html, "<img src=\"data:image/png") == 3);
+
+  REQUIRE(run_shell(command, folder.path().string()).code == 0);
+  CHECK(count_of(read_file(folder.file("out/report.html")), "<img src=\"data:image/png") == 4);
+  for (const auto& [name, bytes] : files_of(folder.path() / "out")) {
+    INFO(name);
+    CHECK(name.find("/.") == std::string::npos);  // what was half-written
+  }
+}
+
+TEST_CASE("sweep: Ctrl-C while the pictures are drawn keeps those that are whole") {
+  const Folder folder;
+  const Outcome outcome = run_shell("'" + program_path() +
+                                        "' sweep p09-fig7-50 --vary seed=1:12:1 -o out --quiet & sweep=$!\n"
+                                        "for i in $(seq 3000); do\n"
+                                        "  ls out/pictures/*.png >/dev/null 2>&1 && break; sleep 0.01\n"
+                                        "done\n"
+                                        "kill -INT $sweep; wait $sweep",
+                                    folder.path().string());
+  check_failure(outcome, 130, "interrupted; all runs are made; the same command goes on from there\n");
+  std::size_t pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "out/pictures")) {
+    CHECK(entry.path().filename().string().front() != '.');
+    if (entry.path().extension() == ".png") ++pictures;
+  }
+  CHECK(pictures >= 1);
+  CHECK(pictures < 12);
+  CHECK_FALSE(fs::exists(folder.path() / "out/report.html"));
+}
+
 TEST_CASE("sweep: without gnuplot the report says so and has the tables") {
   const Folder folder;
   const Outcome outcome = run_program("sweep s4-fig6 --vary growth.alpha=1.5,2 --steps 4 -o out --quiet",
