@@ -203,18 +203,26 @@ std::vector<TreePicture> draw(const std::vector<Source>& sources, const Grown& g
                               const CompareFlags& flags, const Session& session, ProgressBar& bar) {
   Renderer renderer;
   std::vector<Mesh> meshes;
+  std::vector<Mesh> obstacles;
   std::vector<Vec3f> room;  // for all, so that they have one scale
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const std::optional<Job>& job = sources[i].job;
     meshes.push_back(
         make_tree_mesh(grown.first[i], job ? job->looks() : Looks{}, job ? job->seed() : 0).mesh);
+    obstacles.push_back(job ? obstacle_mesh(*job) : Mesh());
     room.insert(room.end(), meshes.back().positions.begin(), meshes.back().positions.end());
     if (session.stop.stop_requested()) throw Interrupted();
+  }
+  Box trees;
+  for (const Vec3f& point : room) trees.include(Vec3(point));
+  for (const Mesh& mesh : obstacles) {
+    const Box near = obstacle_room(mesh, trees);
+    if (near.is_empty()) continue;
+    for (const Vec3& corner : corners(near)) room.emplace_back(corner);
   }
   const std::size_t total = sources.size() * std::size(kViews);
   std::vector<TreePicture> pictures;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const Mesh obstacles = sources[i].job ? obstacle_mesh(*sources[i].job) : Mesh();
     for (const View& view : kViews) {
       bar.show({"drawing", static_cast<double>(pictures.size()), static_cast<double>(total), "picture"});
       RenderOptions options;
@@ -222,9 +230,10 @@ std::vector<TreePicture> draw(const std::vector<Source>& sources, const Grown& g
       options.view = view.direction;
       options.style = view.style;
       options.room_for = room;
+      options.obstacles_take_room = false;
       options.with_scale = view.style == RenderStyle::schematic;
       std::ostringstream png;
-      const Scene scene{.mesh = &meshes[i], .skeleton = &grown.first[i], .obstacles = &obstacles};
+      const Scene scene{.mesh = &meshes[i], .skeleton = &grown.first[i], .obstacles = &obstacles[i]};
       write_png(renderer.render(scene, options), png);
       const std::string name =
           fmt::format("{}-{}-{}.png", i + 1, file_stem(grown.subjects[i].label), view.name);

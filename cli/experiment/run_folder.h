@@ -20,6 +20,7 @@ struct RunRecord {
   double seconds = 0.0;                        // that the engine took
   std::uint64_t peak_memory_bytes = 0;
   Box extent;                         // of the wood, metres
+  Box obstacles;                      // around those in its way; empty if there are none
   std::vector<std::string> warnings;  // a limit that it stopped at, for instance
 };
 

@@ -7,6 +7,7 @@
 #include "cli/experiment/run_folder.h"
 #include "common/base/image.h"
 #include "common/format/skeleton_files.h"
+#include "common/mesh/obstacle_mesh.h"
 #include "common/mesh/tree_mesh.h"
 
 namespace ramify::cli {
@@ -31,8 +32,10 @@ std::string Studio::draw(const std::filesystem::path& run, const EngineRegistry&
   RenderOptions options;
   options.width = options.height = frame_.side;
   options.room_for = points;
+  options.obstacles_take_room = false;
   options.with_occlusion = false;  // else drawing takes longer than growing, for shades too fine to be seen
-  return png_bytes(renderer_.render({.mesh = &mesh, .skeleton = &tree}, options));
+  const Mesh obstacles = obstacle_mesh(job);
+  return png_bytes(renderer_.render({.mesh = &mesh, .skeleton = &tree, .obstacles = &obstacles}, options));
 }
 
 }  // namespace ramify::cli

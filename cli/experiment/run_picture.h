@@ -12,7 +12,7 @@ namespace ramify::cli {
 
 /// What all pictures of a sweep have in common: how they are to be compared.
 struct PictureFrame {
-  Box room;      // of the wood of all trees, metres
+  Box room;      // of the wood of all trees, and of obstacles near them, metres
   int side = 0;  // width and height, pixels
 };
 

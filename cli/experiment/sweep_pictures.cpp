@@ -13,6 +13,7 @@
 #include "cli/experiment/process.h"
 #include "common/base/files.h"
 #include "common/base/letters.h"
+#include "viewer/scene.h"
 
 namespace ramify::cli {
 namespace {
@@ -30,10 +31,16 @@ constexpr float kLetterHeight = 15.0f;  // pixels
 constexpr int kLineHeight = 17;         // pixels
 constexpr ColorBytes kInk{40, 40, 38, 255};
 
+/// What all pictures show: the wood of all trees, and the obstacles near them.
 Box room_of(const SweepResults& results) {
-  Box room;
+  Box trees;
   for (const SweepRow& row : results.rows) {
-    if (row.record && !row.record->extent.is_empty()) room.include(row.record->extent);
+    if (row.record && !row.record->extent.is_empty()) trees.include(row.record->extent);
+  }
+  Box room = trees;
+  for (const SweepRow& row : results.rows) {
+    const Box obstacles = row.record ? obstacle_room(row.record->obstacles, trees) : Box();
+    if (!obstacles.is_empty()) room.include(obstacles);
   }
   return room;
 }

@@ -399,6 +399,30 @@ TEST_CASE("sweep: all pictures are at one scale, and drawn anew only if it chang
   CHECK(after.size() == 5);
 }
 
+TEST_CASE("sweep: pictures show the obstacles, at the scale of all others") {
+  const Folder folder;
+  outcome_of("xm12-obstacle --vary 'pathplan.obstacles.1.volume.center=[1.3,2.1,0],[1.8,2.1,0]' -o out",
+             folder);
+  // In front of the tree's foot there is nothing but the near end of the wall, and ground of one colour.
+  std::vector<int> first;
+  std::vector<int> width;
+  for (const std::string& name : column(rows_of(read_file(folder.file("out/results.csv"))), "run")) {
+    const Image picture = decoded_image(read_file(folder.file("out/pictures/" + name + ".png")), name);
+    std::vector<int> wall;
+    for (int x = 0; x < picture.width; ++x) {
+      const auto blue = [&](int at) { return static_cast<int>(picture.pixel(at, 196)[2]); };
+      if (std::abs(blue(x) - blue(0)) > 6) wall.push_back(x);
+    }
+    REQUIRE_FALSE(wall.empty());
+    first.push_back(wall.front());
+    width.push_back(static_cast<int>(wall.size()));
+  }
+  CHECK(width[0] > 4);
+  CHECK(width[0] < 16);
+  CHECK(std::abs(width[1] - width[0]) <= 4);  // its side is seen, too
+  CHECK(first[1] > first[0] + 5);
+}
+
 TEST_CASE("sweep: pictures have the same bytes whoever draws them, and only those that lack are drawn") {
   const Folder folder;
   outcome_of("s4-fig6 --vary seed=1:5:1 --threads 1 -o one", folder);
