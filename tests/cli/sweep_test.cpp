@@ -137,6 +137,14 @@ TEST_CASE("sweep: steps are cut from one growing tree, byte for byte the runs of
   CHECK(std::stod(seconds[1]) <= std::stod(seconds[2]));
 }
 
+TEST_CASE("sweep: a run tells how far it is while it grows, a byte each hundredth") {
+  const Folder folder;
+  fs::create_directory(folder.path() / "runs");
+  const Outcome outcome = run_program("sweep-run s4-fig6 --at-step 3 -o runs", folder.path().string());
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == std::string(100, '.'));
+}
+
 TEST_CASE("sweep: a tree that stops at a limit says so, the steps before do not") {
   const Folder folder;
   outcome_of("s4-fig8 --set growth.max_internodes=300 --vary steps=3,7,8 -o cut", folder);
