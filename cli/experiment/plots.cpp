@@ -8,6 +8,7 @@
 
 #include "cli/experiment/process.h"
 #include "cli/experiment/process_pool.h"
+#include "cli/text.h"
 #include "common/base/errors.h"
 #include "common/base/files.h"
 
@@ -112,7 +113,7 @@ Drawing drawing_of(const HeatMap& map) {
     const auto place = fmt::format("{} {}", i % columns, i / columns);
     const auto& value = map.values[i];
     cells += value ? fmt::format("{} {}\n", place, *value) : fmt::format("{} NaN\n", place);
-    numbers += fmt::format("{} {}\n", place, value ? fmt::format("{:.3g}", *value) : "-");
+    numbers += fmt::format("{} {}\n", place, value ? short_number(*value) : "-");
   }
   std::string setup = cells + "END\n" + numbers + "END\n" + labels(map.x_label, map.y_label);
   setup += named_tics("x", map.x_names) + named_tics("y", map.y_names);

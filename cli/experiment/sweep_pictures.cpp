@@ -151,14 +151,6 @@ std::string fitted(std::string text, const Letters& letters, float width) {
   return text + "...";
 }
 
-/// The last part of a dotted key, if no other key ends like it.
-std::string short_key(const std::vector<std::string>& keys, std::size_t at) {
-  const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
-  const auto same = std::count_if(keys.begin(), keys.end(),
-                                  [&](const std::string& key) { return last(key) == last(keys[at]); });
-  return same > 1 ? keys[at] : last(keys[at]);
-}
-
 Image blank(int width, int height) {
   Image image{width, height, {}};
   image.rgba.assign(4 * static_cast<std::size_t>(width) * height, 255);
@@ -201,12 +193,15 @@ SweepPictures draw_runs(const SweepResults& results, const SweepFolder& folder, 
   pictures.failure = drawing.work(report);
   if (options.stop.stop_requested())
     throw Interrupted{"all runs are made; the same command goes on from there"};
+  bool is_missing = false;
   for (std::size_t i = 0; i < results.rows.size(); ++i) {
     const fs::path file = folder.path() / picture_name(results.plan.runs[i].name);
     std::error_code error;
     const bool is_there = results.rows[i].record && fs::exists(file, error);
     pictures.files.push_back(is_there ? read_file(file) : "");
+    is_missing = is_missing || (results.rows[i].record && !is_there);
   }
+  if (!is_missing) pictures.failure.reset();  // it failed between two of them
   return pictures;
 }
 

@@ -40,6 +40,9 @@ SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
 inline constexpr std::size_t kRunNameLength = 16;
 std::string run_name(const std::string& complete_config);
 
+/// The last part of the dotted key `keys[at]`, if no other key ends like it; else all of it.
+std::string short_key(const std::vector<std::string>& keys, std::size_t at);
+
 /// Runs that one process makes: of one family, by rising steps.
 using Batch = std::vector<std::size_t>;  // indices of SweepPlan::runs
 
