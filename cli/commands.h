@@ -28,6 +28,7 @@ void add_render(CLI::App& program, const Session& session);
 void add_stats(CLI::App& program, const Session& session);
 void add_compare(CLI::App& program, const Session& session);
 void add_sweep(CLI::App& program, const Session& session);
+void add_sweep_draw(CLI::App& program, const Session& session);
 void add_sweep_run(CLI::App& program, const Session& session);
 void add_sweep_task(CLI::App& program, const Session& session);
 void add_convert(CLI::App& program);

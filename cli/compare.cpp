@@ -203,18 +203,26 @@ std::vector<TreePicture> draw(const std::vector<Source>& sources, const Grown& g
                               const CompareFlags& flags, const Session& session, ProgressBar& bar) {
   Renderer renderer;
   std::vector<Mesh> meshes;
+  std::vector<Mesh> obstacles;
   std::vector<Vec3f> room;  // for all, so that they have one scale
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const std::optional<Job>& job = sources[i].job;
     meshes.push_back(
         make_tree_mesh(grown.first[i], job ? job->looks() : Looks{}, job ? job->seed() : 0).mesh);
+    obstacles.push_back(job ? obstacle_mesh(*job) : Mesh());
     room.insert(room.end(), meshes.back().positions.begin(), meshes.back().positions.end());
     if (session.stop.stop_requested()) throw Interrupted();
+  }
+  Box trees;
+  for (const Vec3f& point : room) trees.include(Vec3(point));
+  for (const Mesh& mesh : obstacles) {
+    const Box near = obstacle_room(mesh, trees);
+    if (near.is_empty()) continue;
+    for (const Vec3& corner : corners(near)) room.emplace_back(corner);
   }
   const std::size_t total = sources.size() * std::size(kViews);
   std::vector<TreePicture> pictures;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const Mesh obstacles = sources[i].job ? obstacle_mesh(*sources[i].job) : Mesh();
     for (const View& view : kViews) {
       bar.show({"drawing", static_cast<double>(pictures.size()), static_cast<double>(total), "picture"});
       RenderOptions options;
@@ -222,9 +230,10 @@ std::vector<TreePicture> draw(const std::vector<Source>& sources, const Grown& g
       options.view = view.direction;
       options.style = view.style;
       options.room_for = room;
+      options.obstacles_take_room = false;
       options.with_scale = view.style == RenderStyle::schematic;
       std::ostringstream png;
-      const Scene scene{.mesh = &meshes[i], .skeleton = &grown.first[i], .obstacles = &obstacles};
+      const Scene scene{.mesh = &meshes[i], .skeleton = &grown.first[i], .obstacles = &obstacles[i]};
       write_png(renderer.render(scene, options), png);
       const std::string name =
           fmt::format("{}-{}-{}.png", i + 1, file_stem(grown.subjects[i].label), view.name);
@@ -252,14 +261,14 @@ std::vector<std::string> notes_on(const std::vector<Source>& sources, const Grow
 }
 
 /// Draws the plots beside the report where there is gnuplot, and keeps the SVGs for it.
-void draw_distributions(CompareResults& results, ResultFolder& folder) {
+void draw_distributions(CompareResults& results, ResultFolder& folder, int processes) {
   results.plots = distribution_plots(results.subjects);
   if (!has_gnuplot()) return;
   std::vector<Plot> plots;
   for (const DistributionPlot& distribution : results.plots) plots.push_back(distribution.plot);
   const std::filesystem::path place = folder.staging() / "plots";
   std::filesystem::create_directory(place);
-  draw_plots(plots, place);
+  draw_plots(plots, place, processes);
   for (const Plot& plot : plots) results.plot_svgs.push_back(read_file(place / (plot.name + ".svg")));
 }
 
@@ -311,7 +320,7 @@ void compare(CompareFlags flags, const Session& session) {
     bar.show({"distances", static_cast<double>(done), static_cast<double>(total), "pair"});
     if (session.stop.stop_requested()) throw Interrupted();
   });
-  draw_distributions(results, folder);
+  draw_distributions(results, folder, flags.reading.running.threads);
   bar.clear();
 
   for (const TreePicture& picture : results.pictures) folder.write("pictures/" + picture.name, picture.png);

@@ -85,6 +85,7 @@ int run(int argc, char** argv) {
   add_stats(program, session);
   add_compare(program, session);
   add_sweep(program, session);
+  add_sweep_draw(program, session);
   add_sweep_run(program, session);
   add_sweep_task(program, session);
   add_convert(program);

@@ -1,15 +1,14 @@
 #include <fmt/format.h>
-#include <sys/prctl.h>
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <csignal>
-#include <cstdlib>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/experiment/plots.h"
+#include "cli/experiment/process.h"
 #include "cli/experiment/slurm_job.h"
 #include "cli/experiment/sweep_figures.h"
 #include "cli/experiment/sweep_folder.h"
@@ -96,10 +95,10 @@ void make_missing(const SweepPlan& plan, const SweepFolder& folder, const SweepF
   const std::vector<std::size_t> missing = unfinished(gather(plan, folder.runs()));
   for (const std::size_t run : missing) forget_failure(folder.runs(), plan.runs[run].name);
   ProgressBar bar(flags.running.is_quiet);
-  const PoolOptions options{folder.runs(), flags.running.threads, session.stop};
-  make_batches(plan, batches_of(plan, missing), options, [&](std::size_t made) {
-    bar.show({"sweep", static_cast<double>(made), static_cast<double>(missing.size()), "run"});
-  });
+  make_batches(plan, batches_of(plan, missing), folder.runs(), {flags.running.threads, session.stop},
+               [&](double made) {
+                 bar.show({"sweep", made, static_cast<double>(missing.size()), "run"});
+               });
   bar.clear();
   if (!session.stop.stop_requested()) return;
   const std::size_t done = gather(plan, folder.runs()).count_done();
@@ -107,25 +106,28 @@ void make_missing(const SweepPlan& plan, const SweepFolder& folder, const SweepF
                                 plan.runs.size())};
 }
 
-/// Draws the trees, if there is anything to draw with, and their contact sheet.
-void draw_pictures(SweepFindings& findings, const SweepFolder& folder, const Session& session,
+/// Has the trees drawn, if there is anything to draw with, and lays out their contact sheet.
+void draw_pictures(SweepFindings& findings, const SweepFolder& folder, const PoolOptions& options,
                    ProgressBar& bar) {
   findings.picture_side = picture_side(findings.results.rows.size());
   findings.picture_columns = picture_columns(findings.results.plan);
-  try {
-    findings.pictures =
-        draw_runs(findings.results, folder, session, [&](std::size_t done, std::size_t total) {
-          bar.show({"drawing", static_cast<double>(done), static_cast<double>(total), "picture"});
-        });
-    folder.write("contact-sheet.png", png_bytes(labelled_sheet(findings.results, findings.pictures)));
-  } catch (const GraphicsError& error) {
-    findings.notes.push_back(fmt::format("There are no pictures: {}.", error.what()));
-    findings.pictures.assign(findings.results.rows.size(), "");
+  SweepPictures pictures =
+      draw_runs(findings.results, folder, options, [&](std::size_t done, std::size_t total) {
+        bar.show({"drawing", static_cast<double>(done), static_cast<double>(total), "picture"});
+      });
+  findings.pictures = std::move(pictures.files);
+  const auto drawn = std::count_if(findings.pictures.begin(), findings.pictures.end(),
+                                   [](const std::string& file) { return !file.empty(); });
+  if (pictures.failure) {
+    findings.notes.push_back(drawn == 0 ? fmt::format("There are no pictures: {}.", *pictures.failure)
+                                        : fmt::format("Pictures are missing: {}.", *pictures.failure));
   }
+  if (drawn == 0) return;
+  folder.write("contact-sheet.png", png_bytes(labelled_sheet(findings.results, findings.pictures)));
 }
 
 /// Draws the figures where there is gnuplot, and keeps the SVGs for the report.
-void draw_figures(SweepFindings& findings, const SweepFolder& folder) {
+void draw_figures(SweepFindings& findings, const SweepFolder& folder, int processes) {
   findings.responses = responses_of(findings.results);
   findings.has_gnuplot = has_gnuplot();
   if (!findings.has_gnuplot) return;
@@ -133,8 +135,8 @@ void draw_figures(SweepFindings& findings, const SweepFolder& folder) {
   const std::vector<HeatMap> maps = maps_of(findings.responses);
   const std::filesystem::path plots = folder.path() / "plots";
   std::filesystem::create_directory(plots);
-  draw_plots(lines, plots);
-  draw_heat_maps(maps, plots);
+  draw_plots(lines, plots, processes);
+  draw_heat_maps(maps, plots, processes);
   const auto keep = [&](const std::string& name) {
     findings.figure_svgs.push_back(read_file(plots / (name + ".svg")));
   };
@@ -149,8 +151,8 @@ SweepFindings report(const SweepPlan& plan, const SweepFolder& folder, const Swe
   SweepFindings findings;
   findings.results = gather(plan, folder.runs());
   folder.write("results.csv", results_csv(findings.results));
-  draw_pictures(findings, folder, session, bar);
-  draw_figures(findings, folder);
+  draw_pictures(findings, folder, {flags.running.threads, session.stop}, bar);
+  draw_figures(findings, folder, flags.running.threads);
   folder.write("report.html", sweep_report(findings));
   return findings;
 }
@@ -225,8 +227,6 @@ void collect(const SweepFlags& flags, const Session& session) {
 void sweep(const SweepFlags& flags, const Session& session) {
   check_flags(flags);
   const ThreadLimit limit(flags.running.threads);
-  // Where Mesa draws in software, by as many threads, too.
-  if (flags.running.threads > 0) setenv("LP_NUM_THREADS", std::to_string(flags.running.threads).c_str(), 0);
   if (flags.collects) return collect(flags, session);
   const SweepPlan plan = plan_of(flags, session);
   SweepFolder folder(flags.folder);
@@ -247,8 +247,7 @@ struct SweepRunFlags {
 };
 
 void sweep_run(const SweepRunFlags& flags, const Session& session) {
-  // A sweep that is killed takes its runs along.
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  end_with_parent();
   const ThreadLimit limit(flags.running.threads);
   make_runs(load_job(session.registry, flags.config), flags.at_steps, flags.runs, session);
 }

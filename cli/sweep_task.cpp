@@ -38,9 +38,9 @@ void sweep_task(const TaskFlags& flags, const Session& session) {
                 [&](std::size_t run) { return slice_of(plan.runs[run], flags.slices) != flags.slice; });
   for (const std::size_t run : missing) forget_failure(folder.runs(), plan.runs[run].name);
   ProgressBar bar(flags.running.is_quiet);
-  make_batches(plan, batches_of(plan, missing), {folder.runs(), flags.running.threads, session.stop},
-               [&](std::size_t made) {
-                 bar.show({"slice", static_cast<double>(made), static_cast<double>(missing.size()), "run"});
+  make_batches(plan, batches_of(plan, missing), folder.runs(), {flags.running.threads, session.stop},
+               [&](double made) {
+                 bar.show({"slice", made, static_cast<double>(missing.size()), "run"});
                });
   bar.clear();
   if (session.stop.stop_requested()) throw Interrupted{"what is made is kept"};

@@ -46,7 +46,7 @@ void include_scene(const Scene& scene, const RenderOptions& options, Framer& fra
   if (scene.skeleton != nullptr && (has_lines || framer.extent().is_empty())) {
     for (const Vec3& position : scene.skeleton->position) framer.include(position);
   }
-  if (scene.obstacles != nullptr) include_obstacles(scene, options, framer);
+  if (scene.obstacles != nullptr && options.obstacles_take_room) include_obstacles(scene, options, framer);
   for (const Vec3f& point : options.room_for) framer.include(Vec3(point));
 }
 

@@ -85,11 +85,15 @@ Vec3 base_of(const Scene& scene) {
 
 Box obstacle_room(const Mesh& obstacles, const Box& tree) {
   Box box;
-  if (tree.is_empty()) return box;
   for (const Vec3f& position : obstacles.positions) box.include(Vec3(position));
+  return obstacle_room(box, tree);
+}
+
+Box obstacle_room(const Box& obstacles, const Box& tree) {
+  if (tree.is_empty() || obstacles.is_empty()) return {};
   const Vec3 size = tree.size();
   const double around = kObstacleRoom * std::max({size.x, size.y, size.z});
-  Box room{glm::max(box.low, tree.low - around), glm::min(box.high, tree.high + around)};
+  Box room{glm::max(obstacles.low, tree.low - around), glm::min(obstacles.high, tree.high + around)};
   return room.is_empty() ? Box() : room;
 }
 

@@ -33,6 +33,7 @@ struct RenderOptions {
   std::string color_by;       // an attribute (attribute_colors.h); empty: bark if lit, black if schematic
   std::optional<Color> tint;  // all of the tree in this one, whatever color_by says
   std::span<const Vec3f> room_for;  // points in the picture besides the scene's: one scale for several scenes
+  bool obstacles_take_room = true;  // those near the tree; else room_for has to see to it
   bool with_scale = false;          // a bar with its length and a human figure beside the tree
   bool with_occlusion = true;       // lit: the sky's light and the sun's are kept out; without, drawn sooner
 };
@@ -51,6 +52,7 @@ Vec3 base_of(const Scene& scene);
 /// What of the scene's obstacles a picture of the tree is to show: as much as is near it. `tree` is around
 /// the tree; empty if there is none or it is far away.
 Box obstacle_room(const Mesh& obstacles, const Box& tree);
+Box obstacle_room(const Box& obstacles, const Box& tree);
 
 /// Whether the mesh has colours or images of its own, to be shown as they are.
 bool shows_materials(const Mesh& mesh);

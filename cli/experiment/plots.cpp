@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "cli/experiment/process.h"
+#include "cli/experiment/process_pool.h"
+#include "cli/text.h"
 #include "common/base/errors.h"
 #include "common/base/files.h"
 
@@ -31,6 +35,9 @@ std::string quoted(const std::string& text) {
   }
   return result + '\'';
 }
+
+// More than it was seen to take.
+constexpr std::uint64_t kGnuplotMemory = 64ull << 20;  // bytes
 
 /// What is drawn once for each kind of file.
 struct Drawing {
@@ -106,7 +113,7 @@ Drawing drawing_of(const HeatMap& map) {
     const auto place = fmt::format("{} {}", i % columns, i / columns);
     const auto& value = map.values[i];
     cells += value ? fmt::format("{} {}\n", place, *value) : fmt::format("{} NaN\n", place);
-    numbers += fmt::format("{} {}\n", place, value ? fmt::format("{:.3g}", *value) : "-");
+    numbers += fmt::format("{} {}\n", place, value ? short_number(*value) : "-");
   }
   std::string setup = cells + "END\n" + numbers + "END\n" + labels(map.x_label, map.y_label);
   setup += named_tics("x", map.x_names) + named_tics("y", map.y_names);
@@ -150,26 +157,38 @@ void add_dark_ink(const fs::path& svg) {
   rewrite(svg, text.insert(end + 1, kDarkInk));
 }
 
-/// All by one gnuplot: it takes longer to start than to draw.
-void draw(std::span<const Drawing> drawings, const fs::path& folder) {
-  if (drawings.empty()) return;
-  const fs::path script = folder / "plots.gnuplot";
-  std::string text;
-  for (const Drawing& drawing : drawings) text += script_of(drawing, folder);
-  rewrite(script, text);
-  const auto end = run_process({"gnuplot", script.string()});
-  fs::remove(script);
-  if (!end || end->code != 0) {
-    throw RunError(fmt::format("gnuplot failed: {}", end ? end->errors.substr(0, 300) : "missing"));
+Process start_gnuplot(const std::string& script) {
+  std::optional<Process> process = Process::start({"gnuplot", "-"}, MemoryFile(script));
+  if (!process) throw RunError("gnuplot: is not there any more");
+  return std::move(*process);
+}
+
+// gnuplot takes as long to start as to draw one of them. It also counts the parts of all SVGs that it draws,
+// so who draws what must not depend on the number of processes.
+constexpr std::size_t kDrawingsAProcess = 4;
+
+void draw(std::span<const Drawing> drawings, const fs::path& folder, int processes) {
+  ProcessPool pool({processes, {}}, kGnuplotMemory);
+  std::string failure;
+  for (std::size_t first = 0; first < drawings.size(); first += kDrawingsAProcess) {
+    const std::size_t count = std::min(kDrawingsAProcess, drawings.size() - first);
+    std::string script;
+    for (const Drawing& drawing : drawings.subspan(first, count)) script += script_of(drawing, folder);
+    pool.add({[script] { return start_gnuplot(script); },
+              [&failure](const ProcessEnd& end) {
+                if (end.code != 0) failure = end.errors.substr(0, 300);
+              }});
   }
+  pool.work([](double) {});
+  if (!failure.empty()) throw RunError(fmt::format("gnuplot failed: {}", failure));
   for (const Drawing& drawing : drawings) add_dark_ink(folder / (drawing.name + ".svg"));
 }
 
 template <class Kind>
-void draw_each(std::span<const Kind> kinds, const fs::path& folder) {
+void draw_each(std::span<const Kind> kinds, const fs::path& folder, int processes) {
   std::vector<Drawing> drawings;
   for (const Kind& kind : kinds) drawings.push_back(drawing_of(kind));
-  draw(drawings, folder);
+  draw(drawings, folder, processes);
 }
 
 }  // namespace
@@ -183,12 +202,12 @@ bool has_gnuplot() {
   return end && end->code == 0;
 }
 
-void draw_plots(std::span<const Plot> plots, const fs::path& folder) {
-  draw_each(plots, folder);
+void draw_plots(std::span<const Plot> plots, const fs::path& folder, int processes) {
+  draw_each(plots, folder, processes);
 }
 
-void draw_heat_maps(std::span<const HeatMap> maps, const fs::path& folder) {
-  draw_each(maps, folder);
+void draw_heat_maps(std::span<const HeatMap> maps, const fs::path& folder, int processes) {
+  draw_each(maps, folder, processes);
 }
 
 }  // namespace ramify::cli

@@ -50,9 +50,10 @@ struct HeatMap {
 bool has_gnuplot();
 
 /// Draws NAME.svg and NAME.png of each plot into `folder`, which is there. The SVG has no background of its
-/// own and takes light ink on pages that are dark. Throws RunError with gnuplot's words if it fails.
-void draw_plots(std::span<const Plot> plots, const std::filesystem::path& folder);
-void draw_heat_maps(std::span<const HeatMap> maps, const std::filesystem::path& folder);
+/// own and takes light ink on pages that are dark. So many `processes` share the work; 0: as many as there
+/// are cores. Throws RunError with gnuplot's words if it fails.
+void draw_plots(std::span<const Plot> plots, const std::filesystem::path& folder, int processes);
+void draw_heat_maps(std::span<const HeatMap> maps, const std::filesystem::path& folder, int processes);
 
 /// The colour of the i-th series, "#rrggbb", for legends beside plots (after Okabe and Ito 2008, told apart
 /// by the colour-blind too).

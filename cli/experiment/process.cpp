@@ -5,9 +5,12 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -50,17 +53,6 @@ class SpawnSetting {
   posix_spawnattr_t attributes_;
 };
 
-/// A file in memory that holds `text`, at its beginning; a pipe would block one side while the other does not
-/// look. -1 if there is no room.
-int file_with(const std::string& text) {
-  const int file = memfd_create("stream", MFD_CLOEXEC);
-  if (file < 0) return file;
-  const auto size = static_cast<ssize_t>(text.size());
-  if (write(file, text.data(), text.size()) == size && lseek(file, 0, SEEK_SET) == 0) return file;
-  close(file);
-  return -1;
-}
-
 /// Appends the next bytes of a file; false at its end.
 bool read_on(int file, std::string& text) {
   std::array<char, 4096> buffer;
@@ -79,24 +71,52 @@ bool read_on(int file, std::string& text) {
 
 }  // namespace
 
-std::optional<Process> Process::start(const std::vector<std::string>& arguments, const std::string& input) {
+MemoryFile::MemoryFile(const std::string& text) : file_(memfd_create("stream", MFD_CLOEXEC)) {
+  const auto size = static_cast<ssize_t>(text.size());
+  if (file_ >= 0 && write(file_, text.data(), text.size()) == size && lseek(file_, 0, SEEK_SET) == 0) return;
+  const int error = errno;
+  if (file_ >= 0) close(file_);
+  throw RunError(fmt::format("cannot write to a file in memory: {}", std::strerror(error)));
+}
+
+MemoryFile::~MemoryFile() {
+  if (file_ >= 0) close(file_);
+}
+
+MemoryFile& MemoryFile::operator=(MemoryFile&& other) noexcept {
+  std::swap(file_, other.file_);
+  return *this;
+}
+
+std::size_t MemoryFile::position() const {
+  return static_cast<std::size_t>(lseek(file_, 0, SEEK_CUR));
+}
+
+std::size_t MemoryFile::size() const {
+  struct stat status {};
+  return fstat(file_, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+}
+
+std::string MemoryFile::text() const {
+  std::string text(size(), '\0');
+  const ssize_t count = pread(file_, text.data(), text.size(), 0);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  return text;
+}
+
+std::optional<Process> Process::start(const std::vector<std::string>& arguments, const MemoryFile& input) {
   std::vector<std::string> copies = arguments;
   std::vector<char*> pointers;
   for (std::string& copy : copies) pointers.push_back(copy.data());
   pointers.push_back(nullptr);
 
+  MemoryFile output("");
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(arguments.front(), errno);
-  const int input_file = file_with(input);
-  const int output_file = file_with("");
   pid_t child = -1;
-  const bool has_files = input_file >= 0 && output_file >= 0;
-  const int failed =
-      has_files ? SpawnSetting(input_file, output_file, ends[1]).spawn(child, pointers) : errno;
-  if (input_file >= 0) close(input_file);
+  const int failed = SpawnSetting(input.descriptor(), output.descriptor(), ends[1]).spawn(child, pointers);
   close(ends[1]);
-  if (failed == 0) return Process(child, output_file, ends[0]);
-  if (output_file >= 0) close(output_file);
+  if (failed == 0) return Process(child, std::move(output), ends[0]);
   close(ends[0]);
   if (failed == ENOENT) return std::nullopt;
   fail(arguments.front(), failed);
@@ -111,13 +131,13 @@ Process::~Process() {
 
 Process::Process(Process&& other) noexcept
     : id_(std::exchange(other.id_, -1)),
-      output_file_(std::exchange(other.output_file_, -1)),
+      output_(std::move(other.output_)),
       errors_file_(std::exchange(other.errors_file_, -1)),
       errors_(std::move(other.errors_)) {}
 
 Process& Process::operator=(Process&& other) noexcept {
   std::swap(id_, other.id_);
-  std::swap(output_file_, other.output_file_);
+  std::swap(output_, other.output_);
   std::swap(errors_file_, other.errors_file_);
   std::swap(errors_, other.errors_);
   return *this;
@@ -139,17 +159,16 @@ ProcessEnd Process::wait() {
   while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
   }
   id_ = -1;
-  std::string output;
-  lseek(output_file_, 0, SEEK_SET);
-  while (read_on(output_file_, output)) {
-  }
-  close(std::exchange(output_file_, -1));
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), std::move(output),
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output_.text(),
           std::move(errors_)};
 }
 
+void end_with_parent() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
 std::optional<ProcessEnd> run_process(const std::vector<std::string>& arguments) {
-  std::optional<Process> process = Process::start(arguments);
+  std::optional<Process> process = Process::start(arguments, MemoryFile(""));
   if (!process) return std::nullopt;
   return process->wait();
 }

@@ -12,6 +12,7 @@
 #include "common/base/errors.h"
 #include "common/base/files.h"
 #include "common/format/skeleton_files.h"
+#include "common/volume/volume.h"
 
 namespace ramify::cli {
 namespace {
@@ -75,23 +76,37 @@ Box extent_of(const Skeleton& tree) {
   return box;
 }
 
+Box obstacles_of(const Job& job) {
+  Box box;
+  for (const Volume* volume : job.engine->volumes(job.parameters.get()).obstacles)
+    box.include(bounds(*volume));
+  return box;
+}
+
 nlohmann::json numbers_of(const Vec3& v) {
   return {v.x, v.y, v.z};
+}
+
+nlohmann::json corners_of(const Box& box) {
+  return {numbers_of(box.low), numbers_of(box.high)};
 }
 
 Vec3 vector_of(const nlohmann::json& numbers) {
   return {numbers.at(0), numbers.at(1), numbers.at(2)};
 }
 
-std::string record_text(const Skeleton& tree, double seconds, std::uint64_t peak_memory_bytes,
+Box box_of(const nlohmann::json& corners) {
+  return {vector_of(corners.at(0)), vector_of(corners.at(1))};
+}
+
+std::string record_text(const Job& job, const Skeleton& tree, double seconds, std::uint64_t peak_memory_bytes,
                         const std::vector<std::string>& warnings) {
   const Box extent = extent_of(tree);
-  const nlohmann::ordered_json object = {{"version", version()},
-                                         {"seconds", seconds},
-                                         {"peak_memory_bytes", peak_memory_bytes},
-                                         {"warnings", warnings},
-                                         {"extent", {numbers_of(extent.low), numbers_of(extent.high)}},
-                                         {"metrics", metrics_json(measure(tree))}};
+  nlohmann::ordered_json object = {
+      {"version", version()}, {"seconds", seconds},           {"peak_memory_bytes", peak_memory_bytes},
+      {"warnings", warnings}, {"extent", corners_of(extent)}, {"metrics", metrics_json(measure(tree))}};
+  const Box obstacles = obstacles_of(job);
+  if (!obstacles.is_empty()) object["obstacles"] = corners_of(obstacles);
   return object.dump(1) + "\n";
 }
 
@@ -103,12 +118,20 @@ RunRecord record_of(const nlohmann::json& object) {
   }
   record.seconds = object.at("seconds");
   record.peak_memory_bytes = object.at("peak_memory_bytes");
-  record.extent = {vector_of(object.at("extent").at(0)), vector_of(object.at("extent").at(1))};
+  record.extent = box_of(object.at("extent"));
+  if (object.contains("obstacles")) record.obstacles = box_of(object.at("obstacles"));
   record.warnings = object.at("warnings").get<std::vector<std::string>>();
   return record;
 }
 
 }  // namespace
+
+std::optional<double> metric_of(const RunRecord& record, std::string_view key) {
+  for (std::size_t k = 0; k < metric_table().size(); ++k) {
+    if (metric_table()[k].key == key) return record.metrics[k];
+  }
+  return std::nullopt;
+}
 
 void write_run(const fs::path& runs, const Job& job, const Skeleton& tree, double seconds,
                std::uint64_t peak_memory_bytes, const std::vector<std::string>& warnings) {
@@ -118,7 +141,7 @@ void write_run(const fs::path& runs, const Job& job, const Skeleton& tree, doubl
   OutputFiles files;
   files.add(folder.path() / kRunConfig) << config;
   write_skeleton(tree, SkeletonForm::ply, provenance_of(job), files.add(folder.path() / kRunTree));
-  files.add(folder.path() / kRunRecord) << record_text(tree, seconds, peak_memory_bytes, warnings);
+  files.add(folder.path() / kRunRecord) << record_text(job, tree, seconds, peak_memory_bytes, warnings);
   files.commit();
   folder.rename_to(runs / name);
   forget_failure(runs, name);

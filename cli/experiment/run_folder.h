@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/geometry.h"
@@ -19,8 +20,12 @@ struct RunRecord {
   double seconds = 0.0;                        // that the engine took
   std::uint64_t peak_memory_bytes = 0;
   Box extent;                         // of the wood, metres
+  Box obstacles;                      // around those in its way; empty if there are none
   std::vector<std::string> warnings;  // a limit that it stopped at, for instance
 };
+
+/// One of its metrics, by the key of metric_table().
+std::optional<double> metric_of(const RunRecord& record, std::string_view key);
 
 /// The names of the files in a run's folder.
 inline constexpr const char* kRunConfig = "config.toml";

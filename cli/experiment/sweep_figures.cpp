@@ -107,10 +107,7 @@ std::optional<double> value_of(const SweepRow& row, const Quantity& quantity) {
   if (!row.record) return std::nullopt;
   if (quantity.key == kSeconds) return row.record->seconds;
   if (quantity.key == kMemory) return static_cast<double>(row.record->peak_memory_bytes) / 1e6;
-  for (std::size_t k = 0; k < metric_table().size(); ++k) {
-    if (metric_table()[k].key == quantity.key) return row.record->metrics[k];
-  }
-  return std::nullopt;
+  return metric_of(*row.record, quantity.key);
 }
 
 Responses responses_of(const SweepResults& results) {

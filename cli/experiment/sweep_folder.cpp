@@ -69,6 +69,7 @@ void SweepFolder::lock() {
   }
   remove_leftovers(path_);
   remove_leftovers(runs());
+  remove_leftovers(path_ / kPictures);
 }
 
 void SweepFolder::write(const fs::path& name, const std::string& bytes) const {

@@ -39,4 +39,12 @@ class SweepFolder {
 /// The plan's file in a sweep's folder.
 inline constexpr const char* kPlanFile = "sweep.json";
 
+/// The folder of the pictures in a sweep's folder.
+inline constexpr const char* kPictures = "pictures";
+
+/// The file there of a run's picture.
+inline std::filesystem::path picture_name(const std::string& run) {
+  return std::filesystem::path(kPictures) / (run + ".png");
+}
+
 }  // namespace ramify::cli

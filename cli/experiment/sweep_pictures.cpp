@@ -3,26 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
-#include <sstream>
+#include <utility>
 
-#include "common/base/errors.h"
+#include "cli/commands.h"
+#include "cli/experiment/process.h"
 #include "common/base/files.h"
 #include "common/base/letters.h"
-#include "common/format/skeleton_files.h"
-#include "common/mesh/tree_mesh.h"
-#include "viewer/renderer.h"
+#include "viewer/scene.h"
 
 namespace ramify::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// More would take longer to make than all the rest, and a picture this small shows none of it.
-constexpr int kBarkResolution = 64;  // pixels
+// What drawing is taken to need before it has been seen, bytes: OpenGL in software, and the mesh.
+constexpr std::uint64_t kDrawingMemory = 220ull << 20;
+constexpr double kMemoryAnInternode = 1000.0;
 
 constexpr int kLargestSide = 240;       // pixels
 constexpr int kSmallestSide = 48;       // pixels
@@ -31,55 +31,117 @@ constexpr float kLetterHeight = 15.0f;  // pixels
 constexpr int kLineHeight = 17;         // pixels
 constexpr ColorBytes kInk{40, 40, 38, 255};
 
+/// What all pictures show: the wood of all trees, and the obstacles near them.
 Box room_of(const SweepResults& results) {
-  Box room;
+  Box trees;
   for (const SweepRow& row : results.rows) {
-    if (row.record && !row.record->extent.is_empty()) room.include(row.record->extent);
+    if (row.record && !row.record->extent.is_empty()) trees.include(row.record->extent);
+  }
+  Box room = trees;
+  for (const SweepRow& row : results.rows) {
+    const Box obstacles = row.record ? obstacle_room(row.record->obstacles, trees) : Box();
+    if (!obstacles.is_empty()) room.include(obstacles);
   }
   return room;
 }
 
-/// Draws trees from the folders of their runs.
-class Studio {
- public:
-  Studio(Box room, int side) : room_(room), side_(side) {}
+double internodes_of(const RunRecord& record) {
+  return metric_of(record, "internodes").value_or(0.0);
+}
 
-  std::string draw(const fs::path& run, const Session& session) {
-    if (!renderer_) renderer_.emplace();
-    const Job job = load_job(session.registry, (run / kRunConfig).string());
-    const Skeleton tree = read_skeleton(run / kRunTree).skeleton;
-    Looks looks = job.looks();
-    looks.bark.resolution = std::min(looks.bark.resolution, kBarkResolution);
-    const Mesh mesh = make_tree_mesh(tree, looks, job.seed()).mesh;
-    Box room = room_;  // leaves reach beyond the wood
-    room.low -= Vec3(job.leaves.length);
-    room.high += Vec3(job.leaves.length);
-    const std::array<Vec3, 8> around = corners(room);
-    const std::vector<Vec3f> points(around.begin(), around.end());
-    RenderOptions options;
-    options.width = options.height = side_;
-    options.room_for = points;
-    options.with_occlusion = false;  // else drawing takes longer than growing, for shades too fine to be seen
-    std::ostringstream png;
-    write_png(renderer_->render({.mesh = &mesh, .skeleton = &tree}, options), png);
-    return std::move(png).str();
+/// Bytes that a process is taken to need.
+std::uint64_t first_guess(const SweepResults& results) {
+  double most = 0.0;
+  for (const SweepRow& row : results.rows) {
+    if (row.record) most = std::max(most, internodes_of(*row.record));
+  }
+  return kDrawingMemory + static_cast<std::uint64_t>(kMemoryAnInternode * most);
+}
+
+/// The names of the finished runs whose pictures are not there, the largest trees first: nobody waits for the
+/// last one. Each stands on a line of its own.
+std::string names_to_draw(const SweepResults& results, const SweepFolder& folder) {
+  std::vector<std::pair<double, std::string>> trees;
+  for (std::size_t i = 0; i < results.rows.size(); ++i) {
+    const std::string& name = results.plan.runs[i].name;
+    std::error_code error;
+    if (!results.rows[i].record || fs::exists(folder.path() / picture_name(name), error)) continue;
+    trees.emplace_back(internodes_of(*results.rows[i].record), name);
+  }
+  std::sort(trees.begin(), trees.end(), std::greater<>());
+  trees.erase(std::unique(trees.begin(), trees.end()), trees.end());
+  std::string names;
+  for (const auto& [size, name] : trees) names += name + '\n';
+  return names;
+}
+
+/// The child's command line; the names come by its stdin.
+std::vector<std::string> picture_command(const SweepFolder& folder, const Box& room, int side) {
+  const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x, p.y, p.z); };
+  return {kThisProgram,
+          "sweep-draw",
+          "-o",
+          folder.path().string(),
+          fmt::format("--side={}", side),
+          "--low=" + point(room.low),
+          "--high=" + point(room.high),
+          "--threads",
+          "1"};
+}
+
+/// Has child processes draw the runs whose names they take from a list that they share.
+class DrawingRoom {
+ public:
+  DrawingRoom(const std::string& names, std::vector<std::string> command, const PoolOptions& options,
+              std::uint64_t first_guess)
+      : names_(names), command_(std::move(command)), pool_(options, first_guess) {
+    most_ = std::min(process_count(options.processes), total());
+    for (std::size_t i = 0; i < most_; ++i) add();
+  }
+
+  std::size_t total() const { return names_.size() / (kRunNameLength + 1); }
+
+  /// Returns why there are pictures missing; nothing if there are none.
+  std::optional<std::string> work(const std::function<void(std::size_t, std::size_t)>& report) {
+    pool_.work([&](double) { report(taken() - std::min(most_, taken()), total()); });
+    return failure_;
   }
 
  private:
-  std::optional<Renderer> renderer_;  // made for the first picture: it takes a while
-  Box room_;
-  int side_;
+  std::size_t taken() const { return names_.position() / (kRunNameLength + 1); }
+
+  void add() {
+    // The program that runs is there.
+    pool_.add({[this] { return *Process::start(command_, names_); },
+               [this](const ProcessEnd& end) { finish(end); }});
+  }
+
+  /// The tree that a process failed at has no picture; another process goes on with the others.
+  void finish(const ProcessEnd& end) {
+    if (end.code == 0) return;
+    failure_ = failure_of(end);
+    if (taken() == taken_at_failure_) return;
+    taken_at_failure_ = taken();
+    add();
+  }
+
+  MemoryFile names_;
+  std::vector<std::string> command_;
+  ProcessPool pool_;
+  std::size_t most_ = 0;
+  std::size_t taken_at_failure_ = 0;
+  std::optional<std::string> failure_;
 };
 
 /// Pictures of another scale or size are gone after this.
 void keep_pictures_of(const SweepFolder& folder, const Box& room, int side) {
   const std::string scale = fmt::format("{} pixels, {} {} {} to {} {} {} m\n", side, room.low.x, room.low.y,
                                         room.low.z, room.high.x, room.high.y, room.high.z);
-  const fs::path pictures = folder.path() / "pictures";
+  const fs::path pictures = folder.path() / kPictures;
   std::error_code error;
   if (fs::exists(pictures / "scale.txt", error) && read_file(pictures / "scale.txt") == scale) return;
   fs::remove_all(pictures, error);
-  folder.write("pictures/scale.txt", scale);
+  folder.write(fs::path(kPictures) / "scale.txt", scale);
 }
 
 /// The text cut so that it is no wider than `width` pixels.
@@ -87,14 +149,6 @@ std::string fitted(std::string text, const Letters& letters, float width) {
   if (letters.width(text) <= width) return text;
   while (!text.empty() && letters.width(text + "...") > width) text.pop_back();
   return text + "...";
-}
-
-/// The last part of a dotted key, if no other key ends like it.
-std::string short_key(const std::vector<std::string>& keys, std::size_t at) {
-  const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
-  const auto same = std::count_if(keys.begin(), keys.end(),
-                                  [&](const std::string& key) { return last(key) == last(keys[at]); });
-  return same > 1 ? keys[at] : last(keys[at]);
 }
 
 Image blank(int width, int height) {
@@ -128,30 +182,26 @@ std::size_t picture_columns(const SweepPlan& plan) {
   return last <= 3 * square ? last : square;
 }
 
-std::vector<std::string> draw_runs(const SweepResults& results, const SweepFolder& folder,
-                                   const Session& session,
-                                   const std::function<void(std::size_t, std::size_t)>& report) {
+SweepPictures draw_runs(const SweepResults& results, const SweepFolder& folder, const PoolOptions& options,
+                        const std::function<void(std::size_t, std::size_t)>& report) {
   const Box room = room_of(results);
   const int side = picture_side(results.rows.size());
   keep_pictures_of(folder, room, side);
-  Studio studio(room, side);
-  std::vector<std::string> pictures;
+  DrawingRoom drawing(names_to_draw(results, folder), picture_command(folder, room, side), options,
+                      first_guess(results));
+  SweepPictures pictures;
+  pictures.failure = drawing.work(report);
+  if (options.stop.stop_requested())
+    throw Interrupted{"all runs are made; the same command goes on from there"};
+  bool is_missing = false;
   for (std::size_t i = 0; i < results.rows.size(); ++i) {
-    report(i, results.rows.size());
-    if (session.stop.stop_requested())
-      throw Interrupted{"all runs are made; the same command goes on from there"};
-    pictures.emplace_back();
-    if (!results.rows[i].record) continue;
-    const std::string& name = results.plan.runs[i].name;
-    const fs::path file = fs::path("pictures") / (name + ".png");
+    const fs::path file = folder.path() / picture_name(results.plan.runs[i].name);
     std::error_code error;
-    if (fs::exists(folder.path() / file, error)) {
-      pictures.back() = read_file(folder.path() / file);
-    } else {
-      pictures.back() = studio.draw(folder.runs() / name, session);
-      folder.write(file, pictures.back());
-    }
+    const bool is_there = results.rows[i].record && fs::exists(file, error);
+    pictures.files.push_back(is_there ? read_file(file) : "");
+    is_missing = is_missing || (results.rows[i].record && !is_there);
   }
+  if (!is_missing) pictures.failure.reset();  // it failed between two of them
   return pictures;
 }
 

@@ -2,22 +2,28 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/commands.h"
+#include "cli/experiment/process_pool.h"
 #include "cli/experiment/sweep_folder.h"
 #include "cli/experiment/sweep_results.h"
 #include "common/base/image.h"
 
 namespace ramify::cli {
 
-/// Draws each finished run's tree, or reads the picture that was drawn before at the same scale; PNG files,
-/// one a row of the results, empty where there is no tree. They are kept in pictures/NAME.png. `report(done,
-/// total)` is called before each. Throws GraphicsError, and Interrupted after Ctrl-C.
-std::vector<std::string> draw_runs(const SweepResults& results, const SweepFolder& folder,
-                                   const Session& session,
-                                   const std::function<void(std::size_t, std::size_t)>& report);
+/// One a row of the results.
+struct SweepPictures {
+  std::vector<std::string> files;      // PNG; empty where there is no tree or drawing it failed
+  std::optional<std::string> failure;  // why pictures of trees are missing
+};
+
+/// Has each finished run's tree drawn, but for those that were drawn before at the same scale, by child
+/// processes with one thread each. The pictures are kept in pictures/NAME.png. `report(done, total)` is
+/// called now and then. Throws Interrupted after Ctrl-C, IoError, and RunError if no process can be started.
+SweepPictures draw_runs(const SweepResults& results, const SweepFolder& folder, const PoolOptions& options,
+                        const std::function<void(std::size_t done, std::size_t total)>& report);
 
 /// Width and height of the pictures, pixels; smaller where there are many runs.
 int picture_side(std::size_t runs);

@@ -70,6 +70,13 @@ std::string RunNames::of(const Job& job) {
   return digest_of(text);
 }
 
+std::string short_key(const std::vector<std::string>& keys, std::size_t at) {
+  const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  const auto same = std::count_if(keys.begin(), keys.end(),
+                                  [&](const std::string& key) { return last(key) == last(keys[at]); });
+  return same > 1 ? keys[at] : last(keys[at]);
+}
+
 SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
                      std::span<const Override> overrides, std::span<const Axis> axes) {
   check_axes(axes, overrides);

@@ -37,8 +37,9 @@ inline constexpr std::size_t kMaxRuns = 10'000;
 SweepPlan plan_sweep(const EngineRegistry& registry, const std::string& config,
                      std::span<const Override> overrides, std::span<const Axis> axes);
 
-/// Names the folders of runs: by the digest of ramify's version, the complete config and the files that it
-/// names, so that a run is made anew when one of these has changed. Each file is read once.
+/// Names the folders of runs, kRunNameLength hexadecimal digits: by the digest of ramify's version, the
+/// complete config and the files that it names, so that a run is made anew when one of these has changed.
+/// Each file is read once.
 class RunNames {
  public:
   /// Throws InputError if a file cannot be read.
@@ -47,6 +48,10 @@ class RunNames {
  private:
   std::map<std::filesystem::path, std::string> digests_;
 };
+inline constexpr std::size_t kRunNameLength = 16;
+
+/// The last part of the dotted key `keys[at]`, if no other key ends like it; else all of it.
+std::string short_key(const std::vector<std::string>& keys, std::size_t at);
 
 /// Runs that one process makes: of one family, by rising steps.
 using Batch = std::vector<std::size_t>;  // indices of SweepPlan::runs

@@ -18,7 +18,7 @@ using Rows = std::vector<std::vector<std::string>>;
 std::string values_text(const std::vector<std::string>& keys, const std::vector<std::string>& values) {
   std::string text;
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    text += fmt::format("{}{} = {}", k > 0 ? ", " : "", keys[k], values[k]);
+    text += fmt::format("{}{} = {}", k > 0 ? ", " : "", short_key(keys, k), values[k]);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include "cli/experiment/sweep_run.h"
 
 #include <chrono>
+#include <cstdio>
 
 #include "cli/experiment/run_folder.h"
 #include "common/base/errors.h"
@@ -27,6 +28,19 @@ class Meter {
   Clock::time_point start_ = Clock::now();
 };
 
+/// Tells the sweep how far a run is: a byte on stdout for each hundredth.
+class Hundredths {
+ public:
+  void show(const Progress& now) {
+    if (now.unit != "step") return;  // of planned trees it is not known how long the other stages will take
+    for (; told_ < 100.0 * now.done / now.total; ++told_) std::fputc('.', stdout);
+    std::fflush(stdout);
+  }
+
+ private:
+  int told_ = 0;
+};
+
 /// Light and vigour are known of the last step alone; runs leave them out, so that it does not matter which
 /// run a tree was cut from.
 Skeleton without_last_state(Skeleton tree) {
@@ -44,7 +58,11 @@ void make_runs(const Job& job, std::span<const int> at_steps, const std::filesys
   RunContext context;
   context.stop = session.stop;
   context.wants_history = !at_steps.empty();
-  if (context.wants_history) context.progress = [&](const Progress&) { costs.push_back(meter.now()); };
+  Hundredths hundredths;
+  context.progress = [&](const Progress& now) {
+    if (context.wants_history) costs.push_back(meter.now());
+    hundredths.show(now);
+  };
   const RunResult run = job.run(context);
   if (session.stop.stop_requested()) throw Interrupted();
   const Cost whole = meter.now();

@@ -137,6 +137,14 @@ TEST_CASE("sweep: steps are cut from one growing tree, byte for byte the runs of
   CHECK(std::stod(seconds[1]) <= std::stod(seconds[2]));
 }
 
+TEST_CASE("sweep: a run tells how far it is while it grows, a byte each hundredth") {
+  const Folder folder;
+  fs::create_directory(folder.path() / "runs");
+  const Outcome outcome = run_program("sweep-run s4-fig6 --at-step 3 -o runs", folder.path().string());
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == std::string(100, '.'));
+}
+
 TEST_CASE("sweep: a tree that stops at a limit says so, the steps before do not") {
   const Folder folder;
   outcome_of("s4-fig8 --set growth.max_internodes=300 --vary steps=3,7,8 -o cut", folder);
@@ -352,6 +360,7 @@ TEST_CASE("sweep: the report is one well-formed page whose pictures lead to thei
   CHECK(count_of(html, "<figure>") == pictures);
   CHECK(count_of(html, "<code class=\"command\">ramify ") == pictures);
   CHECK(count_of(html, "<figure><a href=\"#config-") == 4);
+  CHECK(html.find("alt=\"The tree with alpha = 1.5, weight = 0.3\"") != std::string::npos);
   CHECK(count_of(html, "id=\"config-") == 4);
 
   const std::size_t begin = html.find("<code class=\"command\">ramify render") + 22;
@@ -411,6 +420,117 @@ TEST_CASE("sweep: all pictures are at one scale, and drawn anew only if it chang
   auto after = files_of(folder.path() / "out/pictures");
   for (const auto& [name, bytes] : before) CHECK(after[name] != bytes);
   CHECK(after.size() == 5);
+}
+
+TEST_CASE("sweep: pictures show the obstacles, at the scale of all others") {
+  const Folder folder;
+  outcome_of("xm12-obstacle --vary 'pathplan.obstacles.1.volume.center=[1.3,2.1,0],[1.8,2.1,0]' -o out",
+             folder);
+  // In front of the tree's foot there is nothing but the near end of the wall, and ground of one colour.
+  std::vector<int> first;
+  std::vector<int> width;
+  for (const std::string& name : column(rows_of(read_file(folder.file("out/results.csv"))), "run")) {
+    const Image picture = decoded_image(read_file(folder.file("out/pictures/" + name + ".png")), name);
+    std::vector<int> wall;
+    for (int x = 0; x < picture.width; ++x) {
+      const auto blue = [&](int at) { return static_cast<int>(picture.pixel(at, 196)[2]); };
+      if (std::abs(blue(x) - blue(0)) > 6) wall.push_back(x);
+    }
+    REQUIRE_FALSE(wall.empty());
+    first.push_back(wall.front());
+    width.push_back(static_cast<int>(wall.size()));
+  }
+  CHECK(width[0] > 4);
+  CHECK(width[0] < 16);
+  CHECK(std::abs(width[1] - width[0]) <= 4);  // its side is seen, too
+  CHECK(first[1] > first[0] + 5);
+}
+
+TEST_CASE("sweep: numbers in the cells of a heat map are written out") {
+  if (!has_gnuplot()) return;
+  const Folder folder;
+  outcome_of("s4-fig8 --vary growth.alpha=2,2.5 --vary growth.lambda=0.5 -o out", folder);
+  const std::string map = read_file(folder.file("out/plots/internodes.svg"));
+  for (const std::string& count : column(rows_of(read_file(folder.file("out/results.csv"))), "internodes")) {
+    REQUIRE(count.size() == 4);
+    CHECK(map.find(">" + count.substr(0, 1) + "," + count.substr(1) + "<") != std::string::npos);
+  }
+}
+
+TEST_CASE("sweep: pictures have the same bytes whoever draws them, and only those that lack are drawn") {
+  const Folder folder;
+  outcome_of("s4-fig6 --vary seed=1:5:1 --threads 1 -o one", folder);
+  outcome_of("s4-fig6 --vary seed=1:5:1 --threads 3 -o three", folder);
+  const auto pictures = files_of(folder.path() / "one/pictures");
+  CHECK(pictures.size() == 5 + 1);  // and their scale
+  CHECK(files_of(folder.path() / "three/pictures") == pictures);
+  CHECK(read_file(folder.file("one/contact-sheet.png")) == read_file(folder.file("three/contact-sheet.png")));
+
+  const fs::path taken = folder.path() / "one/pictures" / pictures.begin()->first;
+  std::map<std::string, fs::file_time_type> times;
+  for (const auto& entry : fs::directory_iterator(taken.parent_path()))
+    times[entry.path()] = entry.last_write_time();
+  fs::remove(taken);
+  CHECK(run_program("sweep -o one --collect --quiet", folder.path().string()).code == 0);
+  CHECK(files_of(folder.path() / "one/pictures") == pictures);
+  for (const auto& [path, time] : times) CHECK((fs::last_write_time(path) == time) == (path != taken));
+}
+
+TEST_CASE("sweep: without anything to draw with the report says so") {
+  const Folder folder;
+  const Outcome outcome =
+      run_program("sweep s4-fig6 --vary growth.alpha=1.5,2 --steps 4 -o out --quiet", folder.path().string(),
+                  "env __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null ");
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const std::string html = read_file(folder.file("out/report.html"));
+  CHECK(html.find("There are no pictures: no OpenGL 3.3 to draw with: ") != std::string::npos);
+  CHECK(check_page(html) == count_of(html, "<img src=\"data:image/svg"));
+}
+
+TEST_CASE("sweep: a process that is killed while it draws costs one picture, which the next sweep draws") {
+  const Folder folder;
+  const std::string command = "'" + program_path() + "' sweep p09-fig7-50 --vary seed=1:4:1 -o out --quiet";
+  const Outcome outcome = run_shell(command +
+                                        " --threads 1 & sweep=$!\n"
+                                        "for i in $(seq 3000); do\n"
+                                        "  ls out/pictures/*.png >/dev/null 2>&1 && break; sleep 0.01\n"
+                                        "done\n"
+                                        "kill -9 $(cat /proc/$sweep/task/$sweep/children); wait $sweep",
+                                    folder.path().string());
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  const std::string html = read_file(folder.file("out/report.html"));
+  const std::size_t pictures = count_of(html, "<img src=\"data:image/png");
+  CHECK(pictures >= 3);  // all, if it was between two of them
+  CHECK(count_of(html, "Pictures are missing: ended by signal 9 (Killed)") == 4 - pictures);
+
+  REQUIRE(run_shell(command, folder.path().string()).code == 0);
+  CHECK(count_of(read_file(folder.file("out/report.html")), "<img src=\"data:image/png") == 4);
+  for (const auto& [name, bytes] : files_of(folder.path() / "out")) {
+    INFO(name);
+    CHECK(name.find("/.") == std::string::npos);  // what was half-written
+  }
+}
+
+TEST_CASE("sweep: Ctrl-C while the pictures are drawn keeps those that are whole") {
+  const Folder folder;
+  const Outcome outcome = run_shell("'" + program_path() +
+                                        "' sweep p09-fig7-50 --vary seed=1:12:1 -o out --quiet & sweep=$!\n"
+                                        "for i in $(seq 3000); do\n"
+                                        "  ls out/pictures/*.png >/dev/null 2>&1 && break; sleep 0.01\n"
+                                        "done\n"
+                                        "kill -INT $sweep; wait $sweep",
+                                    folder.path().string());
+  check_failure(outcome, 130, "interrupted; all runs are made; the same command goes on from there\n");
+  std::size_t pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "out/pictures")) {
+    CHECK(entry.path().filename().string().front() != '.');
+    if (entry.path().extension() == ".png") ++pictures;
+  }
+  CHECK(pictures >= 1);
+  CHECK(pictures < 12);
+  CHECK_FALSE(fs::exists(folder.path() / "out/report.html"));
 }
 
 TEST_CASE("sweep: without gnuplot the report says so and has the tables") {
