@@ -61,25 +61,6 @@ void round_bend(const Knot& before, const Knot& knot, const Knot& next, std::vec
   }
 }
 
-/// Turns the rings from `first` on by no more than what keeps each clear of the one before, on the inner side
-/// of a bend too: what is left of a turn comes with the next ring. Where the line turns back there is no way.
-void part_rings(std::vector<LinePoint>& points, std::size_t first) {
-  for (std::size_t i = first; i < points.size(); ++i) {
-    const LinePoint& before = points[i - 1];
-    LinePoint& point = points[i];
-    const Vec3f step = point.position - before.position;
-    const float radius = kClearance * std::max(before.radius, point.radius);
-    const Vec3f wanted = point.along;
-    if (glm::dot(step, before.along) <= 0.0f) continue;
-    for (float share = 1.0f; share > kLeastTurn; share *= 0.5f) {
-      const Vec3f turn = point.along - before.along;
-      const float needed = radius * glm::length(turn);
-      if (glm::dot(step, before.along) >= needed && glm::dot(step, point.along) >= needed) break;
-      point.along = normalized_or(glm::mix(before.along, wanted, 0.5f * share), wanted);
-    }
-  }
-}
-
 void trace_polyline(std::span<const Knot> knots, std::vector<LinePoint>& points) {
   for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
     const Knot& knot = knots[i];
@@ -180,6 +161,23 @@ Vec3f spline_tangent(std::span<const Knot> knots, std::size_t i) {
   const float a = std::sqrt(std::max(knots[i].length, 1e-12f));
   const float b = std::sqrt(std::max(knots[i + 1].length, 1e-12f));
   return (before / a - (before + after) / (a + b) + after / b) * a;
+}
+
+void part_rings(std::vector<LinePoint>& points, std::size_t first) {
+  for (std::size_t i = first; i < points.size(); ++i) {
+    const LinePoint& before = points[i - 1];
+    LinePoint& point = points[i];
+    const Vec3f step = point.position - before.position;
+    const float radius = kClearance * std::max(before.radius, point.radius);
+    const Vec3f wanted = point.along;
+    if (glm::dot(step, before.along) <= 0.0f) continue;
+    for (float share = 1.0f; share > kLeastTurn; share *= 0.5f) {
+      const Vec3f turn = point.along - before.along;
+      const float needed = radius * glm::length(turn);
+      if (glm::dot(step, before.along) >= needed && glm::dot(step, point.along) >= needed) break;
+      point.along = normalized_or(glm::mix(before.along, wanted, 0.5f * share), wanted);
+    }
+  }
 }
 
 void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points) {

@@ -88,7 +88,7 @@ class TubeWriter {
     flare_ = trace_tube(plan_, *tube_, knots_, points_);
     vertex_ = tube_->first_vertex;
     triangle_ = tube_->first_triangle;
-    frame_.set(knots_[0].along, square_to(knots_[0].along));
+    frame_.set(points_[0].along, square_to(points_[0].along));
     v_ = 0.0f;
     from_base_ = 0.0f;
     if (tube_->collar > 0) write_collar(fork);
@@ -339,7 +339,7 @@ class TubeWriter {
     const std::uint32_t sides = tube_->sides * (tube_->flare_rings > 0 ? 2 : 1);
     const std::size_t ring = tube_->first_vertex;
     const std::size_t center = vertex_;
-    const Vec3f down = -knots_[0].along;
+    const Vec3f down = -points_[0].along;
     const std::uint32_t node = knots_[1].node;
     set_vertex(vertex_++, knots_[0].position, down, 0.5f, 0.0f, node);
     for (std::uint32_t i = 0; i < sides; ++i) {

@@ -370,6 +370,33 @@ TEST_CASE("mesher: a trunk's foot widens, not that of trees with roots, nor beyo
   CHECK(widest(build_mesh(s, {}), 0.2f, 20) < 0.1001f);
 }
 
+TEST_CASE(
+    "mesher: a trunk that leans stands on the ground with the whole of its base, with a flare or without") {
+  for (const double lean_deg : {0.0, 20.0, 40.0, 55.0}) {
+    for (const double flare : {0.0, 0.8}) {
+      Skeleton s = pole_of_width(6, 0.4);
+      const double lean = radians(lean_deg);
+      for (Vec3& p : s.position) p = Vec3(std::sin(lean), std::cos(lean), 0) * p.y;
+      const Mesh mesh = build_mesh(s, {.root_flare = flare});
+      INFO(lean_deg << " degrees, flare " << flare);
+      std::size_t on_ground = 0;
+      std::size_t flipped = 0;
+      for (const Vec3f& p : mesh.positions) {
+        CHECK(p.y > -1e-6f);
+        on_ground += p.y < 1e-6f;
+      }
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        Vec3f sum(0.0f);
+        for (const std::uint32_t vertex : mesh.triangles[t]) sum += mesh.normals[vertex];
+        flipped += glm::dot(sum, area_vector(mesh, t)) <= 0;
+      }
+      // The ring, the rim of the closed base and its center.
+      CHECK(on_ground == (flare > 0.0 ? 2 * 24 + 2 : 2 * 12 + 2));
+      CHECK(flipped == 0);
+    }
+  }
+}
+
 TEST_CASE("mesher: skeletons at the edge of sense give sound meshes or none") {
   std::vector<Skeleton> trees;
   trees.push_back(random_tree(1, 50));
