@@ -6,6 +6,7 @@
 
 #include "common/base/parallel.h"
 #include "common/mesh/axes.h"
+#include "common/mesh/chart_borders.h"
 
 namespace ramify {
 namespace {
@@ -103,15 +104,12 @@ class Charts {
             static_cast<float>(stretch.start + share * (stretch.end - stretch.start))};
   }
 
-  /// The internode in whose chart each corner lies: its own, or one of the axis that most corners have.
-  Triangle internodes_of(const Triangle& triangle) const {
-    Triangle own{};
-    for (std::size_t i = 0; i < 3; ++i) own[i] = mesh_.internodes[triangle[i]];
-    const auto axis = [&](std::size_t i) { return skeleton_.axis[own[i]]; };
-    const std::size_t chosen = axis(1) == axis(2) ? 1 : 0;
-    Triangle result = own;
+  /// The internode in whose chart each corner lies: its own, or the triangle's.
+  Triangle internodes_of(const Triangle& triangle, std::uint32_t internode) const {
+    Triangle result{};
     for (std::size_t i = 0; i < 3; ++i) {
-      if (axis(i) != axis(chosen)) result[i] = own[chosen];
+      const std::uint32_t own = mesh_.internodes[triangle[i]];
+      result[i] = skeleton_.axis[own] == skeleton_.axis[internode] ? own : internode;
     }
     return result;
   }
@@ -151,9 +149,10 @@ struct Use {
   friend auto operator<=>(const Use&, const Use&) = default;
 };
 
-void find_uses(const Charts& charts, const Mesh& mesh, std::uint32_t t, std::vector<Use>& uses) {
+void find_uses(const Charts& charts, const Mesh& mesh, std::uint32_t t, std::uint32_t internode,
+               std::vector<Use>& uses) {
   const auto& triangle = mesh.triangles[t];
-  const auto internodes = charts.internodes_of(triangle);
+  const auto internodes = charts.internodes_of(triangle, internode);
   std::array<float, 3> u{};
   for (std::size_t i = 0; i < 3; ++i) {
     const bool is_own = internodes[i] == mesh.internodes[triangle[i]];
@@ -168,13 +167,14 @@ void find_uses(const Charts& charts, const Mesh& mesh, std::uint32_t t, std::vec
 }
 
 /// In ascending order: all uses of one double together.
-std::vector<Use> all_uses(const Charts& charts, const Mesh& mesh) {
+std::vector<Use> all_uses(const Charts& charts, const Mesh& mesh,
+                          const std::vector<std::uint32_t>& internodes) {
   std::vector<std::vector<Use>> blocks((mesh.triangles.size() + kGrain - 1) / kGrain);
   parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
       const std::size_t last = std::min(mesh.triangles.size(), (block + 1) * kGrain);
       for (std::size_t t = block * kGrain; t < last; ++t) {
-        find_uses(charts, mesh, static_cast<std::uint32_t>(t), blocks[block]);
+        find_uses(charts, mesh, static_cast<std::uint32_t>(t), internodes[t], blocks[block]);
       }
     }
   });
@@ -190,6 +190,7 @@ std::vector<Use> all_uses(const Charts& charts, const Mesh& mesh) {
 }  // namespace
 
 void lay_bark_charts(const Skeleton& skeleton, Mesh& mesh) {
+  const std::vector<std::uint32_t> internodes = cut_between_axes(skeleton, mesh);
   const Charts charts(skeleton, mesh);
   mesh.uvs.resize(mesh.vertex_count());
   parallel_for(mesh.vertex_count(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -197,7 +198,7 @@ void lay_bark_charts(const Skeleton& skeleton, Mesh& mesh) {
       mesh.uvs[v] = charts.uv(mesh.internodes[v], static_cast<std::uint32_t>(v));
     }
   });
-  const std::vector<Use> uses = all_uses(charts, mesh);
+  const std::vector<Use> uses = all_uses(charts, mesh, internodes);
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const Double& what = uses[i].what;
     if (i == 0 || what != uses[i - 1].what) {
