@@ -170,6 +170,9 @@ void part_rings(std::vector<LinePoint>& points, std::size_t first) {
     const Vec3f step = point.position - before.position;
     const float radius = kClearance * std::max(before.radius, point.radius);
     const Vec3f wanted = point.along;
+    const Vec3f whole_turn = wanted - before.along;
+    // Nearly all rings are this far apart.
+    if (4.0f * radius * radius * glm::dot(whole_turn, whole_turn) < glm::dot(step, step)) continue;
     if (glm::dot(step, before.along) <= 0.0f) continue;
     for (float share = 1.0f; share > kLeastTurn; share *= 0.5f) {
       const Vec3f turn = point.along - before.along;
@@ -181,14 +184,12 @@ void part_rings(std::vector<LinePoint>& points, std::size_t first) {
 }
 
 void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points) {
-  const std::size_t first = points.size() + 1;
   add_point(points, knots[0].position, knots[0].along, knots[0].radius, knots[0].node);
   if (line == CentreLine::polyline) {
     trace_polyline(knots, points);
   } else {
     trace_spline(knots, points);
   }
-  part_rings(points, first);
 }
 
 }  // namespace ramify

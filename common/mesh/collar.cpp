@@ -66,8 +66,10 @@ SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback
   const auto across = [&](const Vec3& v) {
     return length2 > 1e-12 ? v - tangent * (glm::dot(v, tangent) / length2) : v;
   };
-  const Vec3 sideways = normalized_or(across(fallback), any_perpendicular(fork.along));
-  const Vec3 normal = normalized_or(across(point - axis), sideways, 1e-9);
+  const Vec3 aside = across(point - axis);
+  const double distance = glm::length(aside);
+  const Vec3 normal =
+      distance > 1e-9 ? aside / distance : normalized_or(across(fallback), any_perpendicular(fork.along));
   const double widening = height > 0.0 ? fork.widening_above : fork.widening_below;
   const double radius = std::max(fork.radius + widening * height, 0.1 * fork.radius);
   return {axis + normal * (radius * fork.inset), normal};
@@ -97,7 +99,9 @@ CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& out
       on_parent(fork, crotch.position + outwards * (kSpread * lateral.radius), outwards);
 
   // A line that has no room to rise, or comes out far behind the middle, would make a web: it stays inside.
-  const double middle = exit_length(fork, {.along = lateral.along}, outwards);
+  const double cosine = glm::dot(lateral.along, fork.along);
+  const double middle =
+      fork.radius * fork.inset / std::sqrt(std::max(1.0 - cosine * cosine, kLeastSine * kLeastSine));
   const double room = (longest - exit) / (kRise * lateral.radius);
   const double lag = (exit - middle) / (kLag * lateral.radius);
   const double outside = spread * std::clamp(std::min(room, 2.0 - lag), 0.0, 1.0);
@@ -142,7 +146,9 @@ bool Collar::find_folds(std::uint32_t stretches) {
   const auto is_fold = [](const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
     const Vec3 across = glm::cross(b.position - a.position, c.position - a.position);
     const Vec3 normals = a.normal + b.normal + c.normal;
-    return glm::dot(across, normals) <= kFolded * glm::length(across) * glm::length(normals);
+    const double facing = glm::dot(across, normals);
+    return facing <= 0.0 ||
+           facing * facing < kFolded * kFolded * glm::dot(across, across) * glm::dot(normals, normals);
   };
   is_folded_.assign(lines.size(), false);
   bool has_folds = false;

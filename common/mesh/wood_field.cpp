@@ -11,8 +11,12 @@ namespace {
 // fork is that far from its node.
 constexpr double kZone = 2.5;
 
-// Cosine of the angle to the vertical, or to the stem, up to which what starts at a root stands.
+// Cosine of the angle to the vertical up to which a stem stands on the ground.
 constexpr double kStanding = 0.5;
+
+// Cosine of the angle to that up to which what starts at a root is cut off with it: little of what lies would
+// be left.
+constexpr double kLying = 0.2;
 
 /// Who follows whom on an axis, and the laterals of each node, among the internodes kept.
 struct Branching {
@@ -58,7 +62,7 @@ bool is_cut(const Skeleton& skeleton, const Ground& ground, std::uint32_t intern
   const std::uint32_t parent = skeleton.parent[internode];
   if (skeleton.is_root(parent)) {
     const Vec3 along = normalized_or(skeleton.along(internode), Vec3(0.0), 1e-12);
-    return glm::dot(ground.up, along) > kStanding;
+    return glm::dot(ground.up, along) > kLying;
   }
   const double base = ground.height(skeleton.position[parent]);
   const double tip = ground.height(skeleton.position[internode]);
