@@ -274,8 +274,8 @@ void collect_knots(const TubePlan& plan, std::size_t tube, std::vector<Knot>& kn
 RootFlare trace_tube(const TubePlan& plan, const Tube& tube, const std::vector<Knot>& knots,
                      std::vector<LinePoint>& points) {
   trace_line(knots, plan.line, points);
-  // Twigs are most of a tree; their arcs have room.
-  if (tube.sides > 3 || plan.line == CentreLine::catmull_rom) part_rings(points, 1);
+  // Twigs are most of a tree, and few have arcs.
+  if (tube.sides > 3 || points.size() > knots.size()) part_rings(points, 1);
   if (tube.is_closed && !tube.has_flare) stand_on_ground(points, kFootHeight * knots[0].radius);
   if (!tube.has_flare) return {};
   double length = 0.0;
