@@ -110,9 +110,14 @@ class BarkColors {
   std::vector<Node> nodes_;
 };
 
-/// How often the texture stands around the wood at each node: as often as fits the girth where its axis
-/// begins.
+// Young trees have a finer bark, so that it does not coarsen from one axis to the next.
+constexpr double kLeastAroundTrunk = 3.0;
+
+/// How often the texture stands around the wood at each node: around a trunk as often as fits, around a
+/// lateral so that it is as wide as on the wood that bears it, as far as whole numbers go.
 std::vector<float> repeats_around(const Skeleton& skeleton, double tile_width) {
+  const double thickest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
+  const double trunk_tile = std::min(tile_width, std::numbers::pi * thickest / kLeastAroundTrunk);
   std::vector<float> repeats(skeleton.node_count(), 1.0f);
   for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
     const std::uint32_t parent = skeleton.parent[node];
@@ -120,8 +125,11 @@ std::vector<float> repeats_around(const Skeleton& skeleton, double tile_width) {
       repeats[node] = repeats[parent];
       continue;
     }
+    const double bearer_tile = std::numbers::pi * skeleton.diameter[parent] / repeats[parent];
+    const double tile = skeleton.is_root(parent) ? trunk_tile : bearer_tile;
     const double girth = std::numbers::pi * skeleton.diameter[node];
-    repeats[node] = static_cast<float>(std::max(1.0, std::round(girth / tile_width)));
+    repeats[node] = static_cast<float>(tile > 0.0 ? std::max(1.0, std::round(girth / tile)) : 1.0);
+    if (skeleton.is_root(parent)) repeats[parent] = std::max(repeats[parent], repeats[node]);
   }
   return repeats;
 }
@@ -160,7 +168,10 @@ const Table& BarkOptions::fields() {
       {"normal", &BarkOptions::normal, {.help = "PNG or JPEG, the normal map that goes with image"}},
       {"tile_width",
        &BarkOptions::tile_width,
-       {.min = 0.001, .max = 100, .unit = "m", .help = "how wide the texture is on thick wood"}},
+       {.min = 0.001,
+        .max = 100,
+        .unit = "m",
+        .help = "how wide the texture is on a trunk, at most a third of its girth"}},
       {"resolution",
        &BarkOptions::resolution,
        {.min = 16, .max = 4096, .unit = "pixels", .help = "side of the kind's texture"}},

@@ -20,7 +20,7 @@ struct BarkOptions {
   BarkKind kind = BarkKind::ridged;
   std::filesystem::path image;   // instead of the made one; empty: none
   std::filesystem::path normal;  // a normal map that goes with `image`
-  double tile_width = 0.5;       // metres that the texture is wide on thick wood
+  double tile_width = 0.5;       // metres that the texture is wide on a trunk, at most a third of its girth
   int resolution = 512;          // pixels of a made texture's side
 
   static const Table& fields();
@@ -28,8 +28,8 @@ struct BarkOptions {
 
 /// Gives the ranges that use the material "bark" their texture, and the wood's vertices a colour each that
 /// goes from twigs to trunk. Texture coordinates are scaled so that the texture stands a whole number of
-/// times around each axis, as often as fits its base. The skeleton is the one the mesh was made from. Throws
-/// InputError for an image that cannot be used. O(n).
+/// times around each axis, at its base about as wide as on the axis that bears it. The skeleton is the one
+/// the mesh was made from. Throws InputError for an image that cannot be used. O(n).
 void dress_in_bark(Mesh& mesh, const Skeleton& skeleton, const BarkOptions& options);
 
 /// Throws ConfigError with the key "image" or "normal" if that file cannot be used.

@@ -5,88 +5,133 @@
 #include <compare>
 
 #include "common/base/parallel.h"
+#include "common/mesh/axes.h"
+#include "common/mesh/chart_borders.h"
 
 namespace ramify {
 namespace {
 
 constexpr std::size_t kGrain = 1 << 14;  // triangles
 
-/// How an internode's texture lies.
-struct Frame {
+// Stretches of an axis are at least so long, in radii: the planes between shorter ones would meet within
+// thick wood that bends.
+constexpr float kLeastStretch = 2.0f;
+
+// A point is so many stretches from the one of its internode at the most.
+constexpr int kStretchesAway = 8;
+
+/// How the texture lies on a straight part of an axis.
+struct Stretch {
+  Vec3 base;
+  Vec3 tip;
   Vec3 along = kUp;
   Vec3 side{1, 0, 0};     // perpendicular to it; u is 0 there
   Vec3 base_plane = kUp;  // normals of the planes in which it meets its neighbours of the axis
   Vec3 tip_plane = kUp;
   double start = 0.0;  // v at the base and at the tip
   double end = 0.0;
+  bool is_first = true;  // of its axis
+  bool is_last = true;
 };
 
-/// Frames are carried along each axis, so that neither u nor v jumps from one internode to the next.
-std::vector<Frame> frames_of(const Skeleton& skeleton) {
-  std::vector<Frame> frames(skeleton.node_count());
-  for (std::size_t node = 0; node < frames.size(); ++node) {
-    if (skeleton.is_root(node)) continue;
-    Frame& frame = frames[node];
-    const std::size_t parent = skeleton.parent[node];
-    Frame& below = frames[parent];
-    frame.along = normalized_or(skeleton.along(node), below.along, 1e-12);
-    frame.tip_plane = frame.base_plane = frame.along;
-    if (!skeleton.is_root(parent) && skeleton.axis[parent] == skeleton.axis[node]) {
-      frame.side = transported(below.side, below.along, frame.along);
-      frame.start = below.end;
-      frame.base_plane = below.tip_plane = normalized_or(below.along + frame.along, frame.along);
-    } else {
-      frame.side = any_perpendicular(frame.along);
-    }
-    const double girth = std::numbers::pi * (skeleton.start_radius(node) + 0.5 * skeleton.diameter[node]);
-    frame.end = frame.start + skeleton.length(node) / std::max(girth, 1e-9);
+/// The stretches of all axes, one after the other, and the one that each internode lies on.
+struct Stretches {
+  std::vector<Stretch> list;
+  std::vector<std::uint32_t> of_internode;
+
+  explicit Stretches(const Skeleton& skeleton) : of_internode(skeleton.node_count(), 0) {
+    const Axes axes = find_axes(skeleton);
+    for (const Axis& axis : axes.list) add(axes, axis);
   }
-  return frames;
-}
+
+ private:
+  void add(const Axes& axes, const Axis& axis) {
+    const std::size_t first = list.size();
+    std::uint32_t base = axis.first;
+    for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point) {
+      const AxisPoint& from = axes.points[base];
+      const AxisPoint& to = axes.points[point];
+      of_internode[to.node] = static_cast<std::uint32_t>(list.size());
+      const float length = glm::distance(from.position, to.position);
+      const bool is_tip = point + 1 == axis.end();
+      if (length < kLeastStretch * std::max(from.radius, to.radius) && !is_tip) continue;
+      add(from, to, list.size() > first);
+      base = point;
+    }
+  }
+
+  /// Frames are carried along each axis, so that neither u nor v jumps from one stretch to the next.
+  void add(const AxisPoint& from, const AxisPoint& to, bool goes_on) {
+    Stretch stretch{.base = Vec3(from.position), .tip = Vec3(to.position)};
+    stretch.along = normalized_or(stretch.tip - stretch.base, goes_on ? list.back().along : kUp, 1e-12);
+    stretch.base_plane = stretch.tip_plane = stretch.along;
+    stretch.side = any_perpendicular(stretch.along);
+    if (goes_on) {
+      Stretch& below = list.back();
+      stretch.side = transported(below.side, below.along, stretch.along);
+      stretch.start = below.end;
+      stretch.base_plane = below.tip_plane = normalized_or(below.along + stretch.along, stretch.along);
+      stretch.is_first = below.is_last = false;
+    }
+    const double girth = std::numbers::pi * (double{from.radius} + double{to.radius});
+    stretch.end = stretch.start + glm::length(stretch.tip - stretch.base) / girth;
+    list.push_back(stretch);
+  }
+};
 
 class Charts {
  public:
   Charts(const Skeleton& skeleton, const Mesh& mesh)
-      : skeleton_(skeleton), mesh_(mesh), frames_(frames_of(skeleton)) {}
+      : skeleton_(skeleton), mesh_(mesh), stretches_(skeleton) {}
 
   /// u from -1/2 to 1/2.
   Vec2f uv(std::uint32_t internode, std::uint32_t vertex) const {
-    const Frame& frame = frames_[internode];
     const Vec3 at(mesh_.positions[vertex]);
-    const Vec3 from_base = at - skeleton_.position[skeleton_.parent[internode]];
-    const Vec3 to_tip = skeleton_.position[internode] - at;
-    const double angle =
-        std::atan2(glm::dot(from_base, glm::cross(frame.along, frame.side)), glm::dot(from_base, frame.side));
-    double before = glm::dot(from_base, frame.base_plane);
-    double after = glm::dot(to_tip, frame.tip_plane);
+    const Stretch& stretch = stretch_at(at, stretches_.of_internode[internode]);
+    const Vec3 from_base = at - stretch.base;
+    const double angle = std::atan2(glm::dot(from_base, glm::cross(stretch.along, stretch.side)),
+                                    glm::dot(from_base, stretch.side));
+    double before = glm::dot(from_base, stretch.base_plane);
+    double after = glm::dot(stretch.tip - at, stretch.tip_plane);
     // On the inner side of a sharp bend the planes meet: there the place along the line decides.
-    if (before < 0.0 || after < 0.0) {
-      before = glm::dot(from_base, frame.along);
-      after = glm::dot(to_tip, frame.along);
+    if ((before < 0.0 && !stretch.is_first) || (after < 0.0 && !stretch.is_last)) {
+      before = glm::dot(from_base, stretch.along);
+      after = glm::dot(stretch.tip - at, stretch.along);
     }
     const double whole = before + after;
     const double share = whole > 1e-12 ? before / whole : 0.5;
     return {static_cast<float>(angle / (2.0 * std::numbers::pi)),
-            static_cast<float>(frame.start + share * (frame.end - frame.start))};
+            static_cast<float>(stretch.start + share * (stretch.end - stretch.start))};
   }
 
-  /// The internode in whose chart each corner lies: its own, or one of the axis that most corners have.
-  Triangle internodes_of(const Triangle& triangle) const {
-    Triangle own{};
-    for (std::size_t i = 0; i < 3; ++i) own[i] = mesh_.internodes[triangle[i]];
-    const auto axis = [&](std::size_t i) { return skeleton_.axis[own[i]]; };
-    const std::size_t chosen = axis(1) == axis(2) ? 1 : 0;
-    Triangle result = own;
+  /// The internode in whose chart each corner lies: its own, or the triangle's.
+  Triangle internodes_of(const Triangle& triangle, std::uint32_t internode) const {
+    Triangle result{};
     for (std::size_t i = 0; i < 3; ++i) {
-      if (axis(i) != axis(chosen)) result[i] = own[chosen];
+      const std::uint32_t own = mesh_.internodes[triangle[i]];
+      result[i] = skeleton_.axis[own] == skeleton_.axis[internode] ? own : internode;
     }
     return result;
   }
 
  private:
+  /// The stretch between whose planes a point lies, looked for from one that is near on its axis.
+  const Stretch& stretch_at(const Vec3& at, std::size_t index) const {
+    int direction = 0;
+    for (int step = 0; step < kStretchesAway; ++step) {
+      const Stretch& stretch = stretches_.list[index];
+      const bool is_before = !stretch.is_first && glm::dot(at - stretch.base, stretch.base_plane) < 0.0;
+      const bool is_after = !stretch.is_last && glm::dot(stretch.tip - at, stretch.tip_plane) < 0.0;
+      if (is_before == is_after || direction == (is_before ? 1 : -1)) break;
+      direction = is_before ? -1 : 1;
+      index = is_before ? index - 1 : index + 1;
+    }
+    return stretches_.list[index];
+  }
+
   const Skeleton& skeleton_;
   const Mesh& mesh_;
-  std::vector<Frame> frames_;
+  Stretches stretches_;
 };
 
 /// A vertex as a triangle's corner needs it: in the chart of another internode, or a turn further.
@@ -104,9 +149,10 @@ struct Use {
   friend auto operator<=>(const Use&, const Use&) = default;
 };
 
-void find_uses(const Charts& charts, const Mesh& mesh, std::uint32_t t, std::vector<Use>& uses) {
+void find_uses(const Charts& charts, const Mesh& mesh, std::uint32_t t, std::uint32_t internode,
+               std::vector<Use>& uses) {
   const auto& triangle = mesh.triangles[t];
-  const auto internodes = charts.internodes_of(triangle);
+  const auto internodes = charts.internodes_of(triangle, internode);
   std::array<float, 3> u{};
   for (std::size_t i = 0; i < 3; ++i) {
     const bool is_own = internodes[i] == mesh.internodes[triangle[i]];
@@ -121,13 +167,14 @@ void find_uses(const Charts& charts, const Mesh& mesh, std::uint32_t t, std::vec
 }
 
 /// In ascending order: all uses of one double together.
-std::vector<Use> all_uses(const Charts& charts, const Mesh& mesh) {
+std::vector<Use> all_uses(const Charts& charts, const Mesh& mesh,
+                          const std::vector<std::uint32_t>& internodes) {
   std::vector<std::vector<Use>> blocks((mesh.triangles.size() + kGrain - 1) / kGrain);
   parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
       const std::size_t last = std::min(mesh.triangles.size(), (block + 1) * kGrain);
       for (std::size_t t = block * kGrain; t < last; ++t) {
-        find_uses(charts, mesh, static_cast<std::uint32_t>(t), blocks[block]);
+        find_uses(charts, mesh, static_cast<std::uint32_t>(t), internodes[t], blocks[block]);
       }
     }
   });
@@ -143,6 +190,7 @@ std::vector<Use> all_uses(const Charts& charts, const Mesh& mesh) {
 }  // namespace
 
 void lay_bark_charts(const Skeleton& skeleton, Mesh& mesh) {
+  const std::vector<std::uint32_t> internodes = cut_between_axes(skeleton, mesh);
   const Charts charts(skeleton, mesh);
   mesh.uvs.resize(mesh.vertex_count());
   parallel_for(mesh.vertex_count(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -150,7 +198,7 @@ void lay_bark_charts(const Skeleton& skeleton, Mesh& mesh) {
       mesh.uvs[v] = charts.uv(mesh.internodes[v], static_cast<std::uint32_t>(v));
     }
   });
-  const std::vector<Use> uses = all_uses(charts, mesh);
+  const std::vector<Use> uses = all_uses(charts, mesh, internodes);
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const Double& what = uses[i].what;
     if (i == 0 || what != uses[i - 1].what) {

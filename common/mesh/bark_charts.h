@@ -7,10 +7,10 @@
 
 namespace ramify {
 
-/// Sets mesh.uvs from positions and internodes. A triangle lies in the chart of one axis. Where a chart's
-/// ends meet behind, and where two axes do, vertices are doubled, at the end of the arrays: the surface stays
-/// closed by its positions. O(n), and a sort of what is doubled; on all threads, the same for any number of
-/// them.
+/// Sets mesh.uvs from positions and internodes. A triangle lies in the chart of one axis: where two meet it
+/// is cut. There, and where a chart's ends meet behind, vertices are doubled, at the end of the arrays: the
+/// surface stays closed by its positions. O(n), and a sort of what is doubled; on all threads, the same for
+/// any number of them.
 void lay_bark_charts(const Skeleton& skeleton, Mesh& mesh);
 
 }  // namespace ramify

@@ -11,6 +11,21 @@ constexpr float kReachOfStretch = 0.45f;
 // In radii: a bend looks grown rather than broken, and does not close on its inner side.
 constexpr float kReachOfRadius = 3.0f;
 
+// An arc takes so many times the room that its inner side needs: its rings only come near each other there.
+constexpr float kRoomForArc = 1.1f;
+
+// The same for a curve through the knots, which bends unevenly, by its mean radius.
+constexpr float kRoomForCurve = 1.6f;
+
+// Cosine beyond which a single ring in a bend would lean too much to both sides.
+constexpr float kSharp = -0.2f;
+
+// Two rings of a bend stay so many times farther apart than they must not to cross.
+constexpr float kClearance = 1.02f;
+
+// Rings that cross are turned less, down to about this share of the turn.
+constexpr float kLeastTurn = 0.1f;
+
 // A full turn takes no more than these.
 constexpr float kRingsMax = 24.0f;
 
@@ -70,9 +85,11 @@ void trace_spline(std::span<const Knot> knots, std::vector<LinePoint>& points) {
                                : spline_tangent(knots, i - 1) *
                                      std::sqrt(knots[i].length / std::max(knots[i - 1].length, 1e-12f));
     const Vec3f end = spline_tangent(knots, i);
+    const float before = 1.0f - knots[i].room / std::max(knots[i].length, 1e-12f);  // a collar's share
     for (std::uint32_t ring = 1; ring <= knots[i].rings; ++ring) {
-      const float t = static_cast<float>(ring) / static_cast<float>(knots[i].rings);
-      const float s = 1.0f - t;
+      const float s =
+          (1.0f - before) * (1.0f - static_cast<float>(ring) / static_cast<float>(knots[i].rings));
+      const float t = 1.0f - s;
       const Vec3f position = from * (s * s * (1.0f + 2.0f * t)) + start * (s * s * t) +
                              to * (t * t * (3.0f - 2.0f * t)) - end * (t * t * s);
       const Vec3f derivative =
@@ -81,6 +98,15 @@ void trace_spline(std::span<const Knot> knots, std::vector<LinePoint>& points) {
                 glm::mix(knots[i - 1].radius, knots[i].radius, t), knots[i].node);
     }
   }
+}
+
+/// Whether the arc at a knot curves less than the tube is thick, so that its rings do not cross on the inner
+/// side: its sharpest radius is reach cos^2(turn / 2) / sin(turn / 2). In sharp bends one ring would not do.
+bool has_room_for_arc(const Knot& knot, const Knot& next) {
+  const float cosine = glm::dot(knot.along, next.along);
+  const float reach = bend_reach(knot.radius, knot.room, next.room);
+  return reach * (1.0f + cosine) > kRoomForArc * knot.radius * glm::length(knot.along - next.along) ||
+         cosine < kSharp;
 }
 
 /// Radians; of a bend that turns less than a right angle within 2 %.
@@ -113,14 +139,16 @@ void count_rings(std::span<Knot> knots, CentreLine line, float turn_max, float s
     const bool is_last = i + 1 == knots.size();
     if (line == CentreLine::polyline) {
       knot.rings = is_last ? 1 : rings_in_bend(knot, knots[i + 1], turn_max);
+      if (knot.rings > 1 && !has_room_for_arc(knot, knots[i + 1])) knot.rings = 1;
       if (knot.rings == 1 || slack <= 0.0f) continue;
       const float reach = bend_reach(knot.radius, knot.room, knots[i + 1].room);
       if (0.25f * reach * glm::length(knot.along - knots[i + 1].along) < slack) knot.rings = 1;
     } else {
       const float turn = is_last ? 0.0f : turn_between(knot.along, knots[i + 1].along);
-      const float rings = std::ceil(0.75f * (turn_before + turn) / turn_max);
-      knot.rings = static_cast<std::uint32_t>(std::clamp(rings, 1.0f, kRingsMax));
-      if (knot.length * (turn_before + turn) < 8.0f * slack) knot.rings = 1;
+      const float whole_turn = 0.75f * (turn_before + turn);
+      knot.rings = static_cast<std::uint32_t>(std::clamp(std::ceil(whole_turn / turn_max), 1.0f, kRingsMax));
+      const bool has_room = knot.room > kRoomForCurve * knots[i - 1].radius * std::max(turn_before, turn);
+      if (!has_room || knot.length * (turn_before + turn) < 8.0f * slack) knot.rings = 1;
       turn_before = turn;
     }
   }
@@ -133,6 +161,26 @@ Vec3f spline_tangent(std::span<const Knot> knots, std::size_t i) {
   const float a = std::sqrt(std::max(knots[i].length, 1e-12f));
   const float b = std::sqrt(std::max(knots[i + 1].length, 1e-12f));
   return (before / a - (before + after) / (a + b) + after / b) * a;
+}
+
+void part_rings(std::vector<LinePoint>& points, std::size_t first) {
+  for (std::size_t i = first; i < points.size(); ++i) {
+    const LinePoint& before = points[i - 1];
+    LinePoint& point = points[i];
+    const Vec3f step = point.position - before.position;
+    const float radius = kClearance * std::max(before.radius, point.radius);
+    const Vec3f wanted = point.along;
+    const Vec3f whole_turn = wanted - before.along;
+    // Nearly all rings are this far apart.
+    if (4.0f * radius * radius * glm::dot(whole_turn, whole_turn) < glm::dot(step, step)) continue;
+    if (glm::dot(step, before.along) <= 0.0f) continue;
+    for (float share = 1.0f; share > kLeastTurn; share *= 0.5f) {
+      const Vec3f turn = point.along - before.along;
+      const float needed = radius * glm::length(turn);
+      if (glm::dot(step, before.along) >= needed && glm::dot(step, point.along) >= needed) break;
+      point.along = normalized_or(glm::mix(before.along, wanted, 0.5f * share), wanted);
+    }
+  }
 }
 
 void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points) {

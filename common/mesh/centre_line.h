@@ -73,6 +73,10 @@ float bend_reach(float radius, float room_before, float room_after);
 /// Parameterization and applications of Catmull-Rom curves, Computer-Aided Design 43(7), 2011.
 Vec3f spline_tangent(std::span<const Knot> knots, std::size_t i);
 
+/// Turns the rings from `first` on by no more than what keeps each clear of the one before, on the inner side
+/// of a bend too: what is left of a turn comes with the next ring. Where the line turns back there is no way.
+void part_rings(std::vector<LinePoint>& points, std::size_t first);
+
 /// Appends the points of the line to `points`, knots[0].rings = 1 point for the first knot.
 void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points);
 

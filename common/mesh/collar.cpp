@@ -12,9 +12,18 @@ constexpr double kRise = 1.3;
 // In the same: how far behind its middle a side of the lateral may come out of the parent.
 constexpr double kLag = 2.0;
 
-// What the first bend leaves of the stretch, and how far its ring leans back, in radii.
-constexpr double kFree = 0.775;
-constexpr double kLean = 0.3;
+// What the collar may take of the way to the next ring.
+constexpr double kFreeShare = 0.95;
+
+// The greatest of t^2 - t^3.
+constexpr double kGreatestBow = 4.0 / 27.0;
+
+// Folded lines spread so much less each time; after so many times the whole collar does not.
+constexpr double kLessSpread = 0.6;
+constexpr int kTries = 5;
+
+// Cosine between a triangle's normal and its corners' below which it counts as folded.
+constexpr double kFolded = 0.01;
 
 // A lateral that is thicker than this share of its parent meets it as if it were thinner: else its sides
 // would pass the parent by.
@@ -57,8 +66,10 @@ SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback
   const auto across = [&](const Vec3& v) {
     return length2 > 1e-12 ? v - tangent * (glm::dot(v, tangent) / length2) : v;
   };
-  const Vec3 sideways = normalized_or(across(fallback), any_perpendicular(fork.along));
-  const Vec3 normal = normalized_or(across(point - axis), sideways, 1e-9);
+  const Vec3 aside = across(point - axis);
+  const double distance = glm::length(aside);
+  const Vec3 normal =
+      distance > 1e-9 ? aside / distance : normalized_or(across(fallback), any_perpendicular(fork.along));
   const double widening = height > 0.0 ? fork.widening_above : fork.widening_below;
   const double radius = std::max(fork.radius + widening * height, 0.1 * fork.radius);
   return {axis + normal * (radius * fork.inset), normal};
@@ -75,10 +86,10 @@ SurfacePoint CollarLine::at(double t) const {
   return {foot * (s * s) + crotch * (2.0 * s * t) + top * (t * t), normalized_or(normal, top_normal)};
 }
 
-CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& outwards) {
-  // The next ring may lean a little.
-  const double longest =
-      std::min(kCollarShare * lateral.length, lateral.length * kFree - kLean * lateral.radius);
+CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& outwards, double spread) {
+  const double bowed_up = kGreatestBow * std::max(0.0, -glm::dot(lateral.bow, lateral.along));
+  const double longest = std::min(kCollarShare * lateral.length,
+                                  kFreeShare * std::max(lateral.free - bowed_up, 0.1 * lateral.length));
   const double exit = exit_length(fork, lateral, outwards);
   const double rise = std::min(exit + kRise * lateral.radius, longest);
   const double t = rise / lateral.length;
@@ -88,17 +99,69 @@ CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& out
       on_parent(fork, crotch.position + outwards * (kSpread * lateral.radius), outwards);
 
   // A line that has no room to rise, or comes out far behind the middle, would make a web: it stays inside.
-  const double middle = exit_length(fork, {.along = lateral.along}, outwards);
+  const double cosine = glm::dot(lateral.along, fork.along);
+  const double middle =
+      fork.radius * fork.inset / std::sqrt(std::max(1.0 - cosine * cosine, kLeastSine * kLeastSine));
   const double room = (longest - exit) / (kRise * lateral.radius);
   const double lag = (exit - middle) / (kLag * lateral.radius);
-  const double outside = std::clamp(std::min(room, 2.0 - lag), 0.0, 1.0);
+  const double outside = spread * std::clamp(std::min(room, 2.0 - lag), 0.0, 1.0);
   CollarLine line;
   line.foot = glm::mix(edge + lateral.along * (0.4 * rise), foot.position, outside);
   line.crotch = glm::mix(edge + lateral.along * (0.7 * rise), crotch.position, outside);
   line.top = edge + lateral.along * rise + lateral.bow * (t * t * t - t * t);
   line.foot_normal = normalized_or(glm::mix(outwards, foot.normal, outside), outwards);
-  line.top_normal = outwards;
+  const Vec3 tangent = lateral.along * lateral.length + lateral.bow * (3.0 * t * t - 2.0 * t);
+  line.top_normal = normalized_or(
+      outwards - tangent * (glm::dot(outwards, tangent) / glm::dot(tangent, tangent)), outwards);
   return line;
+}
+
+void Collar::lay(const Fork& fork, const Lateral& lateral, std::span<const Vec3> outwards,
+                 std::uint32_t stretches) {
+  spreads_.assign(outwards.size(), 1.0);
+  lay_lines(fork, lateral, outwards, stretches);
+  for (int attempt = 1; find_folds(stretches); ++attempt) {
+    // What cannot be smoothed stays a plain tube, which has no folds.
+    if (attempt > kTries) spreads_.assign(outwards.size(), 0.0);
+    for (std::size_t i = 0; i < outwards.size(); ++i) {
+      if (is_folded_[i]) spreads_[i] *= kLessSpread;
+    }
+    lay_lines(fork, lateral, outwards, stretches);
+    if (attempt > kTries) return;
+  }
+}
+
+void Collar::lay_lines(const Fork& fork, const Lateral& lateral, std::span<const Vec3> outwards,
+                       std::uint32_t stretches) {
+  lines.clear();
+  points.clear();
+  for (std::size_t i = 0; i < outwards.size(); ++i) {
+    lines.push_back(collar_line(fork, lateral, outwards[i], spreads_[i]));
+    for (std::uint32_t k = 0; k <= stretches; ++k)
+      points.push_back(lines[i].at(static_cast<double>(k) / stretches));
+  }
+}
+
+bool Collar::find_folds(std::uint32_t stretches) {
+  const auto is_fold = [](const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
+    const Vec3 across = glm::cross(b.position - a.position, c.position - a.position);
+    const Vec3 normals = a.normal + b.normal + c.normal;
+    const double facing = glm::dot(across, normals);
+    return facing <= 0.0 ||
+           facing * facing < kFolded * kFolded * glm::dot(across, across) * glm::dot(normals, normals);
+  };
+  is_folded_.assign(lines.size(), false);
+  bool has_folds = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t next = (i + 1) % lines.size();
+    const SurfacePoint* here = &points[i * (stretches + 1)];
+    const SurfacePoint* there = &points[next * (stretches + 1)];
+    for (std::uint32_t k = 0; k < stretches; ++k) {
+      if (!is_fold(here[k], there[k], there[k + 1]) && !is_fold(here[k], there[k + 1], here[k + 1])) continue;
+      is_folded_[i] = is_folded_[next] = has_folds = true;
+    }
+  }
+  return has_folds;
 }
 
 }  // namespace ramify

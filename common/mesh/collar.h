@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "common/base/geometry.h"
 
@@ -35,6 +37,7 @@ SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback
 struct Lateral {
   Vec3 along{0.0};      // unit, of its first stretch
   double length = 0.0;  // of that stretch
+  double free = 0.0;    // as far along it goes what stands before the next ring, metres
   double radius = 0.0;
   Vec3 bow{0.0};  // what the derivative at the stretch's end is beyond the straight line's
 };
@@ -55,7 +58,28 @@ struct CollarLine {
   SurfacePoint at(double t) const;
 };
 
-/// The line on the lateral's side `outwards`, a unit vector perpendicular to its direction.
-CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& outwards);
+/// The line on the lateral's side `outwards`, a unit vector perpendicular to its direction. With a `spread`
+/// less than 1 it runs so much nearer to the lateral's own surface, at 0 on it.
+CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& outwards, double spread = 1.0);
+
+/// The lines of a whole collar and what its mesh is made of.
+struct Collar {
+  std::vector<CollarLine> lines;     // one on each side
+  std::vector<SurfacePoint> points;  // of each line, from its foot to its top: stretches + 1
+
+  /// Makes those on these sides, which stand counter-clockwise seen from the lateral's end. Where triangles
+  /// between them would fold over, as in narrow forks, lines spread less. O(sides stretches).
+  void lay(const Fork& fork, const Lateral& lateral, std::span<const Vec3> outwards, std::uint32_t stretches);
+
+ private:
+  void lay_lines(const Fork& fork, const Lateral& lateral, std::span<const Vec3> outwards,
+                 std::uint32_t stretches);
+
+  /// Marks the lines on both sides of triangles that are folded. False if none is.
+  bool find_folds(std::uint32_t stretches);
+
+  std::vector<double> spreads_;
+  std::vector<bool> is_folded_;
+};
 
 }  // namespace ramify

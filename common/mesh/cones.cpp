@@ -10,6 +10,11 @@
 namespace ramify {
 namespace {
 
+// Cosine beyond which an axis bends at a node: the ends of both cones would stand out of a sphere of as few
+// sides. Twigs of less than so many sides are not seen from so near.
+const double kStraight = std::cos(radians(8.0));
+constexpr std::uint32_t kSidesRounded = 5;
+
 /// How the parts of one node lie: its sphere, and the cone from its parent.
 struct NodePart {
   Vec3 along;  // unit, of the internode
@@ -18,26 +23,29 @@ struct NodePart {
   double base_radius = 0.0;  // of the cone
   bool has_cone = false;
   bool has_sphere = false;
-  std::uint32_t sides = 0;
+  std::uint32_t sides = 0;         // of the cone
+  std::uint32_t sphere_sides = 0;  // as many, or twice where the axis bends
   std::size_t first_vertex = 0;
   std::size_t first_triangle = 0;
 };
 
-/// Circles of latitude of a sphere, its poles not counted: its facets are about square.
+/// Circles of latitude of a sphere, its poles not counted: its facets are about square, and the middle one is
+/// where the cone ends, so that no edge of that stands out.
 std::uint32_t latitudes(const NodePart& part) {
-  return std::max<std::uint32_t>(1, part.sides / 2 - 1);
+  return std::max<std::uint32_t>(1, part.sphere_sides / 2 - 1) | 1u;
 }
 
 // A ring repeats its first vertex at the end, where u jumps from 1 to 0; a pole has a vertex a side.
 std::size_t vertex_count(const NodePart& part) {
-  const std::size_t rings = (part.has_sphere ? latitudes(part) : 0) + (part.has_cone ? 2 : 0);
-  return rings * (part.sides + 1) + (part.has_sphere ? 2 * part.sides : 0);
+  const std::size_t of_cone = part.has_cone ? 2 * (part.sides + 1) : 0;
+  if (!part.has_sphere) return of_cone;
+  return of_cone + latitudes(part) * (part.sphere_sides + 1) + 2 * part.sphere_sides;
 }
 
 std::size_t triangle_count(const NodePart& part) {
   // Both caps of a sphere together have as many as one band.
-  const std::size_t bands = (part.has_sphere ? latitudes(part) : 0) + (part.has_cone ? 1 : 0);
-  return bands * part.sides * 2;
+  return (part.has_cone ? 2 * part.sides : 0) +
+         (part.has_sphere ? 2 * latitudes(part) * part.sphere_sides : 0);
 }
 
 double radius(const Skeleton& skeleton, std::size_t node, double thinnest) {
@@ -63,6 +71,7 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     NodePart& part = parts[node];
     const double end_radius = radius(skeleton, node, thinnest);
     part.sides = sides_within(side_count(skeleton.diameter[node], greatest, options), end_radius, tolerance);
+    part.sphere_sides = part.sides;
     part.has_sphere = is_kept[node] && end_radius > tolerance;
     part.along = kUp;
     if (skeleton.is_root(node)) {
@@ -75,6 +84,10 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     part.base_radius = goes_on ? radius(skeleton, parent, thinnest) : end_radius;
     part.along = normalized_or(skeleton.along(node), parts[parent].along, thinnest);
     part.side = transported(parts[parent].side, parts[parent].along, part.along);
+    NodePart& below = parts[parent];
+    if (goes_on && tolerance <= 0.0 && below.sides >= kSidesRounded &&
+        glm::dot(below.along, part.along) < kStraight)
+      below.sphere_sides = 2 * below.sides;
     part.v = length / (std::numbers::pi * (part.base_radius + end_radius));
     if (goes_on) part.v += parts[parent].v;
     part.has_cone = is_kept[node] && length > std::abs(part.base_radius - end_radius) + thinnest;
@@ -106,8 +119,8 @@ class PartBuilder {
   }
 
  private:
-  Vec3 outwards(double turn) const {
-    const double angle = 2.0 * std::numbers::pi * turn / part_.sides;
+  Vec3 outwards(std::uint32_t side) const {
+    const double angle = 2.0 * std::numbers::pi * side / sides_;
     return part_.side * std::cos(angle) + glm::cross(part_.along, part_.side) * std::sin(angle);
   }
 
@@ -121,9 +134,9 @@ class PartBuilder {
   /// A circle on a sphere, at the height sine * radius above its center.
   void add_circle(const Vec3& center, double radius, double sine, double v) {
     const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
-    for (std::uint32_t i = 0; i <= part_.sides; ++i) {
-      add_vertex(center, radius, outwards(i % part_.sides) * cosine + part_.along * sine,
-                 static_cast<double>(i) / part_.sides, v);
+    for (std::uint32_t i = 0; i <= sides_; ++i) {
+      add_vertex(center, radius, outwards(i % sides_) * cosine + part_.along * sine,
+                 static_cast<double>(i) / sides_, v);
     }
   }
 
@@ -133,7 +146,7 @@ class PartBuilder {
   }
 
   void join_circles(std::size_t low, std::size_t high) {
-    for (std::uint32_t i = 0; i < part_.sides; ++i) {
+    for (std::uint32_t i = 0; i < sides_; ++i) {
       add_triangle(low + i, low + i + 1, high + i + 1);
       add_triangle(low + i, high + i + 1, high + i);
     }
@@ -141,6 +154,7 @@ class PartBuilder {
 
   /// Between the circles in which a cone touches both spheres.
   void add_cone() {
+    sides_ = part_.sides;
     const std::uint32_t parent = skeleton_.parent[node_];
     const double length = skeleton_.length(node_);
     const double sine = (part_.base_radius - end_radius_) / length;
@@ -154,16 +168,17 @@ class PartBuilder {
 
   /// Its poles lie along the internode, so that its corners meet those of the cone.
   void add_sphere() {
+    sides_ = part_.sphere_sides;
     const Vec3& center = skeleton_.position[node_];
     const std::uint32_t bands = latitudes(part_) + 1;
     const std::size_t lowest = vertex_;
     for (std::uint32_t band = 1; band < bands; ++band) {
       const double latitude = std::numbers::pi * (static_cast<double>(band) / bands - 0.5);
       add_circle(center, end_radius_, std::sin(latitude), v_at(latitude));
-      if (band > 1) join_circles(vertex_ - 2 * (part_.sides + 1), vertex_ - (part_.sides + 1));
+      if (band > 1) join_circles(vertex_ - 2 * (sides_ + 1), vertex_ - (sides_ + 1));
     }
-    const std::size_t highest = vertex_ - (part_.sides + 1);
-    for (std::uint32_t i = 0; i < part_.sides; ++i) {
+    const std::size_t highest = vertex_ - (sides_ + 1);
+    for (std::uint32_t i = 0; i < sides_; ++i) {
       add_triangle(vertex_, lowest + i + 1, lowest + i);
       add_pole(-1.0, i);
       add_triangle(highest + i, highest + i + 1, vertex_);
@@ -175,7 +190,7 @@ class PartBuilder {
   double v_at(double latitude) const { return part_.v + latitude / (2.0 * std::numbers::pi); }
 
   void add_pole(double sign, std::uint32_t side) {
-    add_vertex(skeleton_.position[node_], end_radius_, part_.along * sign, (side + 0.5) / part_.sides,
+    add_vertex(skeleton_.position[node_], end_radius_, part_.along * sign, (side + 0.5) / sides_,
                v_at(sign * std::numbers::pi / 2.0));
   }
 
@@ -183,6 +198,7 @@ class PartBuilder {
   std::uint32_t node_;
   const NodePart& part_;
   double end_radius_;
+  std::uint32_t sides_ = 0;  // of what is being added
   Mesh& mesh_;
   std::size_t vertex_;
   std::size_t triangle_;

@@ -88,7 +88,7 @@ class TubeWriter {
     flare_ = trace_tube(plan_, *tube_, knots_, points_);
     vertex_ = tube_->first_vertex;
     triangle_ = tube_->first_triangle;
-    frame_.set(knots_[0].along, square_to(knots_[0].along));
+    frame_.set(points_[0].along, square_to(points_[0].along));
     v_ = 0.0f;
     from_base_ = 0.0f;
     if (tube_->collar > 0) write_collar(fork);
@@ -157,9 +157,11 @@ class TubeWriter {
   void write_collar(const Fork& fork) {
     const Knot& end = knots_[1];
     const std::uint32_t sides = tube_->sides;
+    const std::uint32_t stretches = tube_->collar;
     const double radius = knots_[0].radius;
     const Vec3 along(frame_.along);
-    Lateral lateral{.along = along, .length = end.length, .radius = radius};
+    Lateral lateral{
+        .along = along, .length = end.length, .free = free_length(), .radius = radius, .bow = Vec3(0.0)};
     if (plan_.line == CentreLine::catmull_rom)
       lateral.bow = Vec3(spline_tangent(knots_, 1) - end.along * end.length);
     // A corner in the plane of the fork: the collar is the same on both sides.
@@ -170,24 +172,35 @@ class TubeWriter {
 
     const Vec3 across = glm::cross(along, side);
     const Vec2f* circle = unit_circle(sides);
+    outwards_.clear();
+    for (std::uint32_t i = 0; i < sides; ++i)
+      outwards_.push_back(side * double{circle[i].x} + across * double{circle[i].y});
+    collar_.lay(fork, lateral, outwards_, stretches);
+
     const double girth = 2.0 * std::numbers::pi * radius;
     for (std::uint32_t i = 0; i <= sides; ++i) {
-      const Vec2f& turn = circle[i % sides];
-      const CollarLine line = collar_line(fork, lateral, side * double{turn.x} + across * double{turn.y});
+      const CollarLine& line = collar_.lines[i % sides];
+      const SurfacePoint* points = &collar_.points[i % sides * (stretches + 1)];
       const double top = glm::dot(line.top - fork.center, along);
       const double length = glm::length(line.crotch - line.foot) + glm::length(line.top - line.crotch);
-      for (std::uint32_t ring = 0; ring <= tube_->collar; ++ring) {
-        const double t = static_cast<double>(ring) / tube_->collar;
-        const SurfacePoint point = line.at(t);
-        set_vertex(vertex_ + ring * (sides + 1) + i, Vec3f(point.position), Vec3f(point.normal),
+      for (std::uint32_t ring = 0; ring <= stretches; ++ring) {
+        const double t = static_cast<double>(ring) / stretches;
+        set_vertex(vertex_ + ring * (sides + 1) + i, Vec3f(points[ring].position), Vec3f(points[ring].normal),
                    static_cast<float>(i) / static_cast<float>(sides),
                    static_cast<float>((top - (1.0 - t) * length) / girth), end.node);
       }
     }
-    for (std::uint32_t ring = 0; ring < tube_->collar; ++ring) {
+    for (std::uint32_t ring = 0; ring < stretches; ++ring) {
       join<0>(vertex_ + ring * (sides + 1), vertex_ + (ring + 1) * (sides + 1), sides);
     }
     vertex_ += (tube_->collar + 1) * (sides + 1);
+  }
+
+  /// As far the first stretch goes before the next ring begins, which may lean.
+  double free_length() const {
+    const LinePoint& next = points_[1];
+    const float lean = glm::length(glm::cross(frame_.along, next.along));
+    return double{glm::dot(next.position - points_[0].position, frame_.along) - next.radius * lean};
   }
 
   template <std::uint32_t Sides>
@@ -326,7 +339,7 @@ class TubeWriter {
     const std::uint32_t sides = tube_->sides * (tube_->flare_rings > 0 ? 2 : 1);
     const std::size_t ring = tube_->first_vertex;
     const std::size_t center = vertex_;
-    const Vec3f down = -knots_[0].along;
+    const Vec3f down = -points_[0].along;
     const std::uint32_t node = knots_[1].node;
     set_vertex(vertex_++, knots_[0].position, down, 0.5f, 0.0f, node);
     for (std::uint32_t i = 0; i < sides; ++i) {
@@ -339,8 +352,10 @@ class TubeWriter {
   const TubePlan& plan_;
   Mesh& mesh_;
   const Tube* tube_ = nullptr;
-  std::vector<Knot> knots_;  // scratch, like the two below
+  std::vector<Knot> knots_;  // scratch, like the four below
   std::vector<LinePoint> points_;
+  std::vector<Vec3> outwards_;
+  Collar collar_;
   RootFlare flare_;
   const Vec2f* circle_ = nullptr;
   const Vec2f* middles_ = nullptr;

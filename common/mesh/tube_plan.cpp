@@ -20,7 +20,10 @@ constexpr auto kTurnMax = static_cast<float>(radians(18.0));
 constexpr std::size_t kLookBack = 64;
 
 // A trunk that leans more than this, as a cosine, has no foot that stands on the ground.
-constexpr float kLeastUpright = 0.3f;
+constexpr float kLeastUpright = 0.5f;
+
+// In radii: so far up a foot without a flare turns from the ground's direction to its trunk's.
+constexpr float kFootHeight = 1.0f;
 
 // Of the thickest wood: thinner twigs, which have three sides, just begin inside their parents. They are most
 // of a tree, and a collar takes as long as the rest of a twig.
@@ -89,6 +92,18 @@ void straighten(std::vector<Knot>& knots, float tolerance) {
     line[++kept] = anchor;
   }
   line.resize(kept + 1);
+}
+
+/// Lays the base of a trunk that leans into the ground's plane: its rings turn evenly up to `height`, metres.
+void stand_on_ground(std::vector<LinePoint>& points, float height) {
+  if (points[0].along.y < kLeastUpright) return;
+  float from = 0.0f;
+  for (std::size_t i = 0; i < points.size() && from < height; ++i) {
+    if (i > 0) from += glm::distance(points[i].position, points[i - 1].position);
+    const float share = std::min(from / height, 1.0f);
+    points[i].along = normalized_or(glm::mix(Vec3f(kUp), points[i].along, share), Vec3f(kUp));
+  }
+  part_rings(points, 1);
 }
 
 class Planner {
@@ -259,11 +274,15 @@ void collect_knots(const TubePlan& plan, std::size_t tube, std::vector<Knot>& kn
 RootFlare trace_tube(const TubePlan& plan, const Tube& tube, const std::vector<Knot>& knots,
                      std::vector<LinePoint>& points) {
   trace_line(knots, plan.line, points);
+  // Twigs are most of a tree, and few have arcs.
+  if (tube.sides > 3 || points.size() > knots.size()) part_rings(points, 1);
+  if (tube.is_closed && !tube.has_flare) stand_on_ground(points, kFootHeight * knots[0].radius);
   if (!tube.has_flare) return {};
   double length = 0.0;
   for (const Knot& knot : knots) length += knot.length;
   const RootFlare flare = flare_of(knots[0].radius, length, plan.flare);
   add_flare_points(flare, points);
+  stand_on_ground(points, static_cast<float>(flare.height));
   return flare;
 }
 

@@ -11,8 +11,12 @@ namespace {
 // fork is that far from its node.
 constexpr double kZone = 2.5;
 
-// Cosine of the angle to the stem up to which what starts at a root stands.
+// Cosine of the angle to the vertical up to which a stem stands on the ground.
 constexpr double kStanding = 0.5;
+
+// Cosine of the angle to that up to which what starts at a root is cut off with it: little of what lies would
+// be left.
+constexpr double kLying = 0.2;
 
 /// Who follows whom on an axis, and the laterals of each node, among the internodes kept.
 struct Branching {
@@ -33,16 +37,37 @@ struct Branching {
   }
 };
 
-/// The direction of the stem that goes on from the root, or of the only internode there; 0 for one that lies
-/// flat on that plane.
-Vec3 cut_at_root(const Skeleton& skeleton, const Branching& branching, std::uint32_t internode) {
-  const std::uint32_t root = skeleton.parent[internode];
+/// What a tree's wood is cut off at below.
+struct Ground {
+  Vec3 at{0.0};
+  Vec3 up{0.0};  // unit; 0: nothing is cut
+
+  double height(const Vec3& point) const { return glm::dot(point - at, up); }
+};
+
+/// The plane through a root: level if the stem that goes on from it, or the only internode there, stands;
+/// else square to that.
+Ground ground_at(const Skeleton& skeleton, const Branching& branching, std::uint32_t root) {
   std::uint32_t stem = branching.continuation[root];
-  if (stem == kNoParent && branching.laterals[root].size() == 1) stem = internode;
-  if (stem == kNoParent) return Vec3(0.0);
-  const Vec3 up = normalized_or(skeleton.along(stem), Vec3(0.0), 1e-12);
-  const Vec3 along = normalized_or(skeleton.along(internode), Vec3(0.0), 1e-12);
-  return glm::dot(up, along) > kStanding ? up : Vec3(0.0);
+  if (stem == kNoParent && branching.laterals[root].size() == 1) stem = branching.laterals[root].front();
+  if (stem == kNoParent) return {};
+  const Vec3 along = normalized_or(skeleton.along(stem), Vec3(0.0), 1e-12);
+  return {skeleton.position[root], glm::dot(along, kUp) > kStanding ? kUp : along};
+}
+
+/// Whether an internode stands on the ground at a root, or bulges into it from above. What lies or grows down
+/// there, and roots, are not cut.
+bool is_cut(const Skeleton& skeleton, const Ground& ground, std::uint32_t internode) {
+  if (ground.up == Vec3(0.0) || skeleton.kind[internode] == Kind::root) return false;
+  const std::uint32_t parent = skeleton.parent[internode];
+  if (skeleton.is_root(parent)) {
+    const Vec3 along = normalized_or(skeleton.along(internode), Vec3(0.0), 1e-12);
+    return glm::dot(ground.up, along) > kLying;
+  }
+  const double base = ground.height(skeleton.position[parent]);
+  const double tip = ground.height(skeleton.position[internode]);
+  return std::min(base, tip) > 0.0 &&
+         (base < skeleton.start_radius(internode) || tip < 0.5 * skeleton.diameter[internode]);
 }
 
 /// Finds the forks of a field whose cones are made.
@@ -149,14 +174,26 @@ WoodField wood_field(const Skeleton& skeleton, const std::vector<bool>& is_kept,
   WoodField field;
   field.cones.reserve(count);
   std::vector<std::uint32_t> cone_of(count, 0);
+  std::vector<Ground> grounds;
+  std::vector<std::uint32_t> root_of(count);
+  for (std::uint32_t root = 0; root < skeleton.root_count(); ++root)
+    grounds.push_back(ground_at(skeleton, branching, root));
   for (std::uint32_t node = 0; node < count; ++node) {
-    if (skeleton.is_root(node) || !is_kept[node]) continue;
+    if (skeleton.is_root(node)) {
+      root_of[node] = node;
+      continue;
+    }
     const std::uint32_t parent = skeleton.parent[node];
-    const Vec3 cut = skeleton.is_root(parent) ? cut_at_root(skeleton, branching, node) : Vec3(0.0);
+    root_of[node] = root_of[parent];
+    if (!is_kept[node]) continue;
     cone_of[node] = static_cast<std::uint32_t>(field.cones.size());
     RoundCone cone = round_cone(skeleton.position[parent], skeleton.start_radius(node),
                                 skeleton.position[node], 0.5 * skeleton.diameter[node]);
-    cone.cut = cut;
+    const Ground& ground = grounds[root_of[node]];
+    if (is_cut(skeleton, ground, node)) {
+      cone.cut = ground.up;
+      cone.cut_at = ground.at;
+    }
     cone.internode = node;
     field.cones.push_back(cone);
   }

@@ -51,8 +51,8 @@ struct WoodField {
 };
 
 /// Of the internodes for which is_kept is true. `blend` is how wide forks blend, in radii of the lateral's
-/// base; 0: not at all. A lateral starts on its parent's axis, as wide as at its first node; at a root the
-/// stem is cut off flat, and with it what stands there beside it, if it does not lie. O(n).
+/// base; 0: not at all. A lateral starts on its parent's axis, as wide as at its first node; at a root
+/// the stem is cut off level with the ground, and with it what stands there beside it or bulges below. O(n).
 WoodField wood_field(const Skeleton& skeleton, const std::vector<bool>& is_kept, double blend);
 
 }  // namespace ramify

@@ -89,18 +89,46 @@ TEST_CASE("bark: a texture is the same each time, for any number of threads") {
   CHECK(make_bark_texture(BarkKind::ridged, 128).normal_map.rgba == texture.normal_map.rgba);
 }
 
-TEST_CASE("bark: the texture stands around a trunk as often as fits, around a twig once") {
+TEST_CASE("bark: the texture stands around a trunk as often as fits, three times at least") {
+  Skeleton trunk = pole(2);
+  for (double& d : trunk.diameter) d = 0.2;
   BarkOptions options;
-  options.tile_width = 0.1;
-  const Mesh mesh = barked(pole(2), options);  // 0.2 m wide: 0.63 m around
-  float highest = 0.0f;
-  for (const Vec2f& uv : mesh.uvs) highest = std::max(highest, uv.x);
-  const double girth = std::numbers::pi * pole(2).diameter[1];
-  CHECK(highest == static_cast<float>(std::round(girth / 0.1)));
-  options.tile_width = 10.0;
-  highest = 0.0f;
-  for (const Vec2f& uv : barked(pole(2), options).uvs) highest = std::max(highest, uv.x);
-  CHECK(highest == 1.0f);
+  const auto times = [&](double tile_width) {
+    options.tile_width = tile_width;
+    float highest = 0.0f;
+    for (const Vec2f& uv : barked(trunk, options).uvs) highest = std::max(highest, uv.x);
+    return highest;
+  };
+  const double girth = std::numbers::pi * 0.2;
+  CHECK(times(0.1) == static_cast<float>(std::round(girth / 0.1)));
+  CHECK(times(10.0) == 3.0f);
+}
+
+TEST_CASE("bark: on a lateral the texture is about as wide as on the wood that bears it") {
+  for (const double diameter : {0.05, 0.1, 0.2, 0.3}) {
+    Skeleton tree = pole(4);
+    for (double& d : tree.diameter) d = 0.3;
+    const Vec3 fork = tree.position[2];
+    tree.position.push_back(fork + Vec3(1, 0.5, 0));
+    tree.parent.push_back(2);
+    tree.diameter.push_back(diameter);
+    tree.kind.push_back(Kind::stem);
+    assign_axes(tree);
+    BarkOptions options;
+    options.tile_width = 10.0;
+    const Mesh mesh = barked(tree, options);
+    float trunk = 0.0f;
+    float lateral = 0.0f;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+      float& highest = tree.axis[mesh.internodes[v]] == tree.axis[5] ? lateral : trunk;
+      highest = std::max(highest, mesh.uvs[v].x);
+    }
+    INFO(diameter << " m");
+    CHECK(trunk == 3.0f);
+    const double scale = (diameter / lateral) / (0.3 / trunk);
+    CHECK(scale > 0.49);
+    CHECK(scale < 1.51);
+  }
 }
 
 TEST_CASE("bark: twigs have another colour than the trunk") {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
 #include "common/config/job.h"
+#include "common/mesh/wood_field.h"
 #include "common/skeleton/passes.h"
 #include "growth/engine.h"
 #include "pathplan/engine.h"
@@ -296,6 +299,73 @@ TEST_CASE("watertight: no triangle stretches the texture across where its ends m
   }
   // At the poles of tips, which u goes around.
   CHECK(stretched < mesh.triangles.size() / 200);
+}
+
+TEST_CASE("watertight: the texture runs on evenly along thick wood that bends in short internodes") {
+  Skeleton tree;
+  add_internode(tree, kNoParent, {0, 0, 0}, 0.5);
+  for (std::uint32_t i = 1; i <= 8; ++i)
+    add_internode(tree, i - 1, {i % 2 == 0 ? 0.1 : 0.0, 0.2 * i, i % 3 == 0 ? 0.1 : 0.0}, 0.5);
+  assign_axes(tree);
+  const Mesh mesh = watertight(tree, {.voxel_size = 0.03});
+  // v is metres by the girth of half a metre's width; its slope may grow on the inner side of bends.
+  const double girth = 0.5 * std::numbers::pi;
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = triangle[i];
+      const std::uint32_t b = triangle[(i + 1) % 3];
+      if (mesh.positions[a].y > 1.55f || mesh.positions[a].y < 0.05f) continue;  // tip and cut
+      const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
+      CHECK(std::abs(mesh.uvs[a].y - mesh.uvs[b].y) * girth < 2.0 * length);
+    }
+  }
+}
+
+TEST_CASE("watertight: a trunk that leans is cut off level with the ground, nothing bulges below") {
+  Skeleton tree;
+  add_internode(tree, kNoParent, {0, 0, 0}, 0.4);
+  add_internode(tree, 0, {0.05, 0.1, 0}, 0.4);
+  add_internode(tree, 1, {0.5, 1, 0}, 0.4);
+  assign_axes(tree);
+  const Mesh mesh = watertight(tree, {.voxel_size = 0.02});
+  check_closed(mesh, 1);
+  std::size_t on_ground = 0;
+  for (const Vec3f& p : mesh.positions) {
+    CHECK(p.y > -0.01f);
+    on_ground += p.y < 0.01f;
+  }
+  CHECK(on_ground > 10);
+}
+
+TEST_CASE("watertight: the bark of two axes meets where both are equally near") {
+  Skeleton tree;
+  add_internode(tree, kNoParent, {0, 0, 0}, 0.4);
+  add_internode(tree, 0, {0, 1, 0}, 0.4);
+  add_internode(tree, 1, {0, 2, 0}, 0.4);
+  add_internode(tree, 1, {1, 1.8, 0}, 0.3);
+  assign_axes(tree);
+  const double voxel_size = 0.02;
+  const Mesh mesh = watertight(tree, {.voxel_size = voxel_size});
+  const RoundCone below = round_cone({0, 0, 0}, 0.2, {0, 1, 0}, 0.2);
+  const RoundCone above = round_cone({0, 1, 0}, 0.2, {0, 2, 0}, 0.2);
+  const RoundCone lateral = round_cone({0, 1, 0}, 0.15, {1, 1.8, 0}, 0.15);
+  std::map<std::array<float, 3>, std::set<std::uint32_t>> axes;  // of the vertices at each place
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3f& p = mesh.positions[v];
+    axes[{p.x, p.y, p.z}].insert(tree.axis[mesh.internodes[v]]);
+  }
+  std::size_t count = 0;
+  double sum = 0.0;
+  for (const auto& [place, there] : axes) {
+    if (there.size() < 2) continue;
+    const Vec3 p(place[0], place[1], place[2]);
+    const double apart = std::abs(lateral.distance(p) - std::min(below.distance(p), above.distance(p)));
+    CHECK(apart < 0.5 * voxel_size);
+    sum += apart;
+    ++count;
+  }
+  CHECK(count > 40);
+  CHECK(sum / static_cast<double>(count) < 0.05 * voxel_size);
 }
 
 TEST_CASE("watertight: coarser levels and budgets have fewer triangles and are as closed") {
