@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "common/mesh/attribute_colors.h"
+#include "viewer/theme.h"
 
 namespace ramify {
 namespace {
@@ -25,6 +26,10 @@ constexpr Sampling kFinest{.fineness = 2, .samples = 4};
 
 // Seconds that kAtRest may take for kFinest to come after it: the window is not to stand still.
 constexpr double kQuickAtRest = 0.08;
+
+double now_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// The sun stays where it is while the viewer walks around.
 CameraAxes sun() {
@@ -73,6 +78,7 @@ void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show)
 
 unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
                        int width, int height, Quality quality) {
+  const double start = now_seconds();
   is_stale_ = is_stale_ || loaded_.size() != exhibits.size() || orbit_ != orbit || quality_ != quality;
   loaded_.resize(exhibits.size());
   Box box;
@@ -97,7 +103,11 @@ unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& 
   height_ = height;
   quality_ = quality;
   orbit_ = orbit;
-  if (is_stale_) draw_anew();
+  if (is_stale_) {
+    draw_anew();
+    ++drawn_count_;
+    last_seconds_ = now_seconds() - start;
+  }
   is_stale_ = false;
   return target_->picture().id();
 }
@@ -139,7 +149,7 @@ double Pane::draw(const Sampling& sampling) {
     target_width_ = width_;
     target_height_ = height_;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now_seconds();
   const double aspect = static_cast<double>(width_) / height_;
   double reach = 0.0;
   for (const auto& loaded : loaded_) reach = std::max(reach, loaded->painter.reach());
@@ -150,7 +160,7 @@ double Pane::draw(const Sampling& sampling) {
   Viewport viewport;
   viewport.width = sampling.fineness * width_;
   viewport.height = sampling.fineness * height_;
-  viewport.fineness = sampling.fineness;
+  viewport.fineness = sampling.fineness * display_scale();
   target_->begin();
   for (std::size_t index = 0; index < loaded_.size(); ++index) {
     if (index == 0) {
@@ -166,7 +176,7 @@ double Pane::draw(const Sampling& sampling) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glFinish();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return now_seconds() - start;
 }
 
 }  // namespace ramify

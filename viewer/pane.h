@@ -35,6 +35,10 @@ class Pane {
   unsigned picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
                    int width, int height, Quality quality);
 
+  /// How often it was drawn, and the seconds that the last time took, loading the tree included.
+  std::size_t drawn_count() const { return drawn_count_; }
+  double last_seconds() const { return last_seconds_; }
+
   /// Width over height of the last picture.
   double aspect() const { return height_ > 0 ? static_cast<double>(width_) / height_ : 1.0; }
 
@@ -72,6 +76,8 @@ class Pane {
   bool is_stale_ = true;
   Box box_;
   std::string notice_;
+  std::size_t drawn_count_ = 0;
+  double last_seconds_ = 0.0;
 };
 
 }  // namespace ramify

@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/theme.h"
+
 namespace ramify {
 namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
+// Of a plain display.
 constexpr float kHeight = 84.0f;
-constexpr float kReach = 9.0f;  // pixels from a point at which the mouse takes it
+constexpr float kReach = 9.0f;  // from a point at which the mouse takes it
 
 /// Between the plane of the schedule and the window's pixels.
 struct Plot {
@@ -40,7 +43,7 @@ struct Plot {
 /// The point under the mouse, or -1.
 int point_at(const Plot& plot, const Points& points, const ImVec2& mouse) {
   int nearest = -1;
-  float least = kReach;
+  float least = kReach * ui_scale();
   for (std::size_t index = 0; index < points.size(); ++index) {
     const ImVec2 at = plot.place(points[index]);
     const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);
@@ -64,10 +67,10 @@ void draw_curve(const Plot& plot, const Schedule& schedule, int marked) {
     const double across = plot.last * piece / kPieces;
     curve.push_back(plot.place({across, schedule.at(across)}));
   }
-  list.AddPolyline(curve.data(), static_cast<int>(curve.size()), line, 0, 1.5f);
+  list.AddPolyline(curve.data(), static_cast<int>(curve.size()), line, 0, 1.5f * ui_scale());
   for (std::size_t index = 0; index < schedule.points().size(); ++index) {
     const float radius = static_cast<int>(index) == marked ? 5.0f : 3.5f;
-    list.AddCircleFilled(plot.place(schedule.points()[index]), radius, line);
+    list.AddCircleFilled(plot.place(schedule.points()[index]), radius * ui_scale(), line);
   }
   list.PopClipRect();
 }
@@ -95,7 +98,8 @@ WidgetOutcome schedule_curve(const char* id, Schedule& schedule, double last, co
   Points points = schedule.points();
   last = std::max({last, points.back().first, 1e-3});
   const bool is_whole = last > 3.0;  // steps rather than parts of a way
-  const Plot plot{ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, kHeight}, last, range};
+  const Plot plot{
+      ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, kHeight * ui_scale()}, last, range};
   ImGui::InvisibleButton(id, plot.size);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   // Which point is dragged is kept by ImGui under this widget's name.
