@@ -2,6 +2,8 @@
 # Whoever sources it has a display of its own, xdotool and import, and sets
 #   program  the path of ramify
 #   work     a folder for files that are in the way afterwards
+# and, for a program that is slower than others, how many times as long to wait:
+patience=${patience-1}
 log=$work/window.log
 export XDG_CONFIG_HOME=$work/config
 
@@ -25,7 +27,7 @@ start() {
 # wait_for PATTERN [LINES]: until such a line comes after the first LINES of the log.
 wait_for() {
   local i
-  for ((i = 0; i < 600; ++i)); do
+  for ((i = 0; i < 600 * patience; ++i)); do
     tail -n "+$((${2:-0} + 1))" "$log" | grep -q -- "^$1" && return
     kill -0 "$process" 2> /dev/null || fail "it ended while '$1' was awaited"
     sleep 0.05
@@ -35,18 +37,24 @@ wait_for() {
 
 lines() { wc -l < "$log"; }
 
-# then_ready COMMAND...: runs it and waits until the trees have answered and rest.
+# then_ready COMMAND...: runs it and waits until the trees have answered and rest, and nothing more is said: they
+# may have come to rest in the middle of it.
 then_ready() {
-  local before
+  local before now=
   before=$(lines)
   "$@"
   wait_for READY "$before"
+  until [[ $now == "$(lines)" && $(grep -E '^(TREE|READY)' "$log" | tail -n 1) == READY ]]; do
+    kill -0 "$process" 2> /dev/null || fail "it ended before its trees were at rest"
+    now=$(lines)
+    sleep "$(awk -v patience="$patience" 'BEGIN { print 0.2 * patience }')"
+  done
 }
 
 # place NAME FRACTION: the point that far from the left of the widget, at half its height, once it is there.
 place() {
   local i
-  for ((i = 0; i < 200; ++i)); do
+  for ((i = 0; i < 200 * patience; ++i)); do
     awk -v name="$1" -v part="${2:-0.5}" '
       $1 == "RECT" && $2 == name { x = $3 + part * ($5 - $3); y = ($4 + $6) / 2; is_there = 1 }
       $1 == "GONE" && $2 == name { is_there = 0 }
