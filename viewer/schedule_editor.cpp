@@ -34,8 +34,9 @@ struct Plot {
     double across = std::clamp(double(at.x - low.x) / size.x, 0.0, 1.0) * last;
     across = is_whole ? std::round(across) : std::round(across * 100.0) / 100.0;
     const double up = std::clamp(1.0 - double(at.y - low.y) / size.y, 0.0, 1.0);
-    const double step = std::pow(10.0, std::floor(std::log10(range.high - range.low)) - 2.0);
-    return {across, std::clamp(std::round((range.low + up * (range.high - range.low)) / step) * step,
+    // By division, so that 0.57 is 0.57.
+    const double steps = std::pow(10.0, 2.0 - std::floor(std::log10(range.high - range.low)));
+    return {across, std::clamp(std::round((range.low + up * (range.high - range.low)) * steps) / steps,
                                range.low, range.high)};
   }
 };
@@ -105,6 +106,9 @@ WidgetOutcome schedule_curve(const char* id, Schedule& schedule, double last, co
   // Which point is dragged is kept by ImGui under this widget's name.
   int& dragged = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("dragged"), -1);
   WidgetOutcome outcome;
+  // Where it was let go counts, too: a busy window may have missed the way there.
+  const bool is_held = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
+  const ImVec2 pressed = ImGui::GetIO().MouseClickedPos[0];
   const int under = ImGui::IsItemHovered() ? point_at(plot, points, mouse) : -1;
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && under < 0) {
     add_point(points, plot.point(mouse, is_whole));
@@ -114,8 +118,8 @@ WidgetOutcome schedule_curve(const char* id, Schedule& schedule, double last, co
     outcome = {true, true};
   } else if (ImGui::IsItemActivated()) {
     dragged = under;
-  } else if (ImGui::IsItemActive() && dragged >= 0 && dragged < static_cast<int>(points.size()) &&
-             ImGui::IsMouseDragging(0, 1.0f)) {
+  } else if (is_held && dragged >= 0 && dragged < static_cast<int>(points.size()) &&
+             std::hypot(mouse.x - pressed.x, mouse.y - pressed.y) > 1.0f) {
     move_point(points, static_cast<std::size_t>(dragged), plot.point(mouse, is_whole), is_whole ? 1.0 : 0.01);
     outcome.is_changed = points != schedule.points();
   }

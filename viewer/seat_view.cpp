@@ -126,8 +126,8 @@ void show_picture(Workbench& bench, std::size_t index, const ImVec2& size) {
                              ImGuiButtonFlags_MouseButtonMiddle);
   bench.report.add("pane." + seat_name(index));
   lead_camera(bench, index, size);
-  // Now, not before the camera was led: a move's first picture is quick, too.
-  bench.is_drawn_fast = bench.is_moving();
+  // Now, not before the camera was led: a move's first picture is quick, too. Once one is, so are the others.
+  bench.is_drawn_fast = bench.is_drawn_fast || bench.is_moving();
   if (exhibits.empty()) return;
   frame_first(bench, seat, size.x / size.y);
   Orbit orbit = seat.orbit;
@@ -215,6 +215,7 @@ void show_seat(Workbench& bench, std::size_t index, const ImVec2& size) {
 }  // namespace
 
 void show_seats(Workbench& bench) {
+  bench.is_drawn_fast = false;
   const std::size_t count = pane_count(bench);
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const ImVec2 low = ImGui::GetCursorScreenPos();

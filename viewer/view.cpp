@@ -76,6 +76,14 @@ void lay_out(Workbench& bench, Gallery& gallery) {
   show_prompt(bench);
 }
 
+/// Whether a picture gets finer without anything happening.
+bool is_drawing(const Workbench& bench) {
+  for (std::size_t index = 0; index < pane_count(bench); ++index) {
+    if (bench.seats[index]->pane.is_unfinished()) return true;
+  }
+  return false;
+}
+
 /// What a driving program waits for. "TREE seat internodes draft|fine delay now": a tree is on show, so many
 /// milliseconds after the input that changed it, at so many seconds; "PICTURE seat fast|fine triangles
 /// milliseconds": it was drawn anew; "READY": all trees are on show, and at rest.
@@ -95,7 +103,7 @@ class Drive {
                                      bench.is_drawn_fast ? "fast" : "fine", product->mesh.triangles.size(),
                                      1000.0 * pane.last_seconds()));
       }
-      is_settled = is_settled && (document.is_settled() || !document.error().empty());
+      is_settled = is_settled && !is_drawing(bench) && (document.is_settled() || !document.error().empty());
       if (product == nullptr || product->serial == told_[index]) continue;
       told_[index] = product->serial;
       const double delay =
@@ -139,7 +147,7 @@ void run(Workbench& bench) {
     drive.tell(bench);
     const bool is_fresh =
         ImGui::GetFrameCount() < kFirstFrames || Window::now() - bench.window.last_input() < kAfterInput;
-    bench.window.wait(is_fresh ? std::min(kFrame, rest) : rest);
+    bench.window.wait(is_drawing(bench) ? 0.0 : is_fresh ? std::min(kFrame, rest) : rest);
   }
 }
 

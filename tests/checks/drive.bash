@@ -51,12 +51,12 @@ then_ready() {
   done
 }
 
-# place NAME FRACTION: the point that far from the left of the widget, at half its height, once it is there.
+# place NAME FRACTION [HEIGHT]: the point that far from the left of the widget and from its top, once it is there.
 place() {
   local i
   for ((i = 0; i < 200 * patience; ++i)); do
-    awk -v name="$1" -v part="${2:-0.5}" '
-      $1 == "RECT" && $2 == name { x = $3 + part * ($5 - $3); y = ($4 + $6) / 2; is_there = 1 }
+    awk -v name="$1" -v part="${2:-0.5}" -v height="${3:-0.5}" '
+      $1 == "RECT" && $2 == name { x = $3 + part * ($5 - $3); y = $4 + height * ($6 - $4); is_there = 1 }
       $1 == "GONE" && $2 == name { is_there = 0 }
       END { if (!is_there) exit 1; printf "%d %d\n", x, y }' "$log" && return
     sleep 0.05
@@ -99,6 +99,23 @@ drag() {
   for ((step = 1; step <= steps; ++step)); do
     sleep "$pause"
     xdotool mousemove --window "$window" $((x0 + (x1 - x0) * step / steps)) "$y"
+  done
+  sleep 0.12
+  xdotool mouseup 1
+}
+
+# drag_between NAME FROM TO: from one place of a widget to another, each as "FRACTION HEIGHT".
+drag_between() {
+  local x0 y0 x1 y1 step
+  # shellcheck disable=SC2086 # two words
+  read -r x0 y0 < <(place "$1" $2)
+  # shellcheck disable=SC2086
+  read -r x1 y1 < <(place "$1" $3)
+  xdotool mousemove --window "$window" "$x0" "$y0" && sleep 0.12
+  xdotool mousedown 1
+  for ((step = 1; step <= 6; ++step)); do
+    sleep 0.12
+    xdotool mousemove --window "$window" $((x0 + (x1 - x0) * step / 6)) $((y0 + (y1 - y0) * step / 6))
   done
   sleep 0.12
   xdotool mouseup 1
