@@ -3,19 +3,33 @@
 #include <epoxy/gl.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
 #include "common/base/errors.h"
 #include "common/config/presets.h"
 #include "viewer/actions.h"
+#include "viewer/theme.h"
 #include "viewer/workbench.h"
 
 namespace ramify {
 namespace {
 
-constexpr int kPictureWidth = 92;  // pixels
+// Of a plain display.
+constexpr int kPictureWidth = 92;
 constexpr int kPictureHeight = 104;
+
+/// On two lines where it is wider than a picture; broken after a hyphen.
+std::string two_lines(const std::string& name, float width) {
+  if (ImGui::CalcTextSize(name.c_str()).x <= width) return name;
+  for (std::size_t at = name.rfind('-'); at != std::string::npos && at > 0; at = name.rfind('-', at - 1)) {
+    const std::string first = name.substr(0, at + 1);
+    if (ImGui::CalcTextSize(first.c_str()).x <= width) return first + "\n" + name.substr(at + 1);
+  }
+  return name;
+}
 
 GlTexture texture_of(const Image& image) {
   GlTexture texture;
@@ -33,7 +47,7 @@ GlTexture texture_of(const Image& image) {
 Gallery::Gallery() : workshop_(Window::wake) {}
 
 float Gallery::height() {
-  return static_cast<float>(kPictureHeight) + 2.0f * ImGui::GetTextLineHeight() + 22.0f;
+  return ui_scale() * (static_cast<float>(kPictureHeight) + 30.0f) + 2.0f * ImGui::GetTextLineHeight();
 }
 
 void Gallery::take() {
@@ -43,13 +57,14 @@ void Gallery::take() {
   making_.clear();
   if (!product->error.empty()) return;
   const double aspect = static_cast<double>(kPictureWidth) / kPictureHeight;
+  const int fineness = std::max(2, static_cast<int>(std::ceil(ui_scale())));
   Orbit orbit;
   orbit.is_parallel = true;
   orbit.elevation_deg = 4.0;
   ShowOptions show;
   show.style = RenderStyle::schematic;
   pane_.picture({{product.get(), std::nullopt}}, show, framed(orbit, framing_points(*product), aspect),
-                2 * kPictureWidth, 2 * kPictureHeight, Quality::finest);
+                fineness * kPictureWidth, fineness * kPictureHeight, Quality::finest);
   thumbnail.texture = texture_of(pane_.image());
 }
 
@@ -74,7 +89,7 @@ void Gallery::show(Workbench& bench, bool is_busy) {
     if (&preset != &presets().front()) ImGui::SameLine();
     ImGui::PushID(name.c_str());
     ImGui::BeginGroup();
-    const ImVec2 size(kPictureWidth, kPictureHeight);
+    const ImVec2 size(ui_scale() * kPictureWidth, ui_scale() * kPictureHeight);
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const bool is_chosen = ImGui::InvisibleButton("picture", size);
     const bool is_visible = ImGui::IsItemVisible();
@@ -91,11 +106,12 @@ void Gallery::show(Workbench& bench, bool is_busy) {
     if (ImGui::IsItemHovered()) {
       list.AddRect(low, high, ImGui::GetColorU32(ImGuiCol_SliderGrab), 0.0f, 0, 2.0f);
       const std::string_view about = summary(preset);
-      ImGui::SetTooltip("%.*s\nShift: beside the other tree", static_cast<int>(about.size()), about.data());
+      ImGui::SetTooltip("%s\n%.*s\nShift: beside the other tree", name.c_str(),
+                        static_cast<int>(about.size()), about.data());
     }
     if (is_visible && wanted_.empty() && found == thumbnails_.end() && name != making_) wanted_ = name;
     ImGui::PushClipRect(low, {high.x, high.y + 2.0f * ImGui::GetTextLineHeight()}, true);
-    ImGui::TextDisabled("%s", name.c_str());
+    ImGui::TextDisabled("%s", two_lines(name, size.x).c_str());
     ImGui::PopClipRect();
     ImGui::EndGroup();
     ImGui::PopID();
@@ -107,7 +123,7 @@ void Gallery::show(Workbench& bench, bool is_busy) {
   }
   // The strip has one direction to go.
   if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && ImGui::GetIO().MouseWheel != 0.0f) {
-    ImGui::SetScrollX(ImGui::GetScrollX() - ImGui::GetIO().MouseWheel * 2.0f * kPictureWidth);
+    ImGui::SetScrollX(ImGui::GetScrollX() - ImGui::GetIO().MouseWheel * 2.0f * ui_scale() * kPictureWidth);
   }
   ImGui::EndChild();
   if (!is_busy) make_next(bench);

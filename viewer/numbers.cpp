@@ -1,6 +1,9 @@
 #include "viewer/numbers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "common/analysis/anatomy.h"
 #include "common/analysis/measures.h"
@@ -27,6 +30,21 @@ Histogram histogram(const Anatomy& tree, const std::vector<std::optional<double>
 }
 
 }  // namespace
+
+std::string number_text(double value, bool is_count, bool with_sign) {
+  if (value == 0.0) return "0";
+  const std::string sign = value < 0.0 ? "-" : with_sign ? "+" : "";
+  const double size = std::abs(value);
+  // Bounds just below powers of ten: no rounding adds a digit.
+  if (size >= 0.00095 && size < 999'999.5) {
+    const int before = size < 9.9995 ? 1 : size < 99.995 ? 2 : size < 999.95 ? 3 : 4;
+    const bool is_whole = is_count || before == 4;
+    return sign + fmt::format("{:.{}f}", size, is_whole ? 0 : size < 0.99995 ? 4 : 4 - before);
+  }
+  const std::string text = fmt::format("{:.{}e}", size, size < 1.0 ? 1 : 2);
+  const std::size_t exponent = text.find('e');
+  return sign + text.substr(0, exponent + 1) + std::to_string(std::stoi(text.substr(exponent + 1)));
+}
 
 Numbers numbers_of(const Skeleton& skeleton) {
   Numbers numbers;

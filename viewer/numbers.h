@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/analysis/distances.h"
@@ -25,6 +26,10 @@ struct Numbers {
   Histogram angles;   // of branching, degrees
   Histogram lengths;  // of axes, metres
 };
+
+/// In no more than seven characters: "0.0842", "18357", "2.54e6", "-3.1e-4"; of numbers above 0 with their
+/// sign, if it is asked for. Counts have no decimals.
+std::string number_text(double value, bool is_count, bool with_sign = false);
 
 /// Measures a tree. The skeleton must be sound. O(n log n).
 Numbers numbers_of(const Skeleton& skeleton);

@@ -8,20 +8,19 @@
 #include <string>
 
 #include "common/mesh/palette.h"
+#include "viewer/theme.h"
 
 namespace ramify {
 namespace {
 
+/// Empty if the metric has no such value.
 std::string text_of(const MetricInfo& info, const std::optional<double>& value) {
-  if (!value) return "-";
-  return info.is_count ? fmt::format("{:.0f}", *value) : fmt::format("{:.4g}", *value);
+  return value ? number_text(*value, info.is_count) : "-";
 }
 
-std::string difference_text(const MetricInfo& info, double from, double to) {
-  // What rounding leaves is none.
-  const bool is_none = std::abs(to - from) <= 1e-12 * std::max(std::abs(from), std::abs(to));
-  if (is_none) return "0";
-  return info.is_count ? fmt::format("{:+.0f}", to - from) : fmt::format("{:+.3g}", to - from);
+/// 0 where only rounding tells them apart.
+double difference(double from, double to) {
+  return std::abs(to - from) <= 1e-12 * std::max(std::abs(from), std::abs(to)) ? 0.0 : to - from;
 }
 
 void right_aligned(const std::string& text) {
@@ -35,32 +34,44 @@ const Numbers* numbers_of_seat(const Workbench& bench, std::size_t index) {
   return product != nullptr ? product->numbers.get() : nullptr;
 }
 
-void metric_row(const MetricInfo& info, const Workbench& bench) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(info.key.data(), info.key.data() + info.key.size());
-  if (ImGui::IsItemHovered()) {
-    const std::string more =
-        fmt::format("{}{}{}", info.help, info.unit.empty() ? "" : fmt::format(", in {}", info.unit),
-                    info.reference.empty() ? "" : fmt::format("\nreal trees: {}", info.reference));
-    ImGui::SetTooltip("%s", more.c_str());
+/// What a metric is, and all its digits.
+void explain(const MetricInfo& info, const std::vector<std::optional<double>>& values) {
+  std::string text = fmt::format("{}\n{}{}", info.key, info.help,
+                                 info.unit.empty() ? "" : fmt::format(", in {}", info.unit));
+  if (!info.reference.empty()) text += fmt::format("\nreal trees: {}", info.reference);
+  for (std::size_t index = 0; index < values.size(); ++index) {
+    if (values[index]) text += fmt::format("\n{}  {:.10g}", seat_name(index), *values[index]);
   }
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_Text]);
+  ImGui::SetTooltip("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void metric_row(const MetricInfo& info, const Workbench& bench) {
   std::vector<std::optional<double>> values;
   for (std::size_t index = 0; index < bench.seats.size(); ++index) {
     const Numbers* numbers = numbers_of_seat(bench, index);
     values.push_back(numbers == nullptr ? std::nullopt : info.value(numbers->metrics));
+  }
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(info.key.data(), info.key.data() + info.key.size());
+  if (ImGui::IsItemHovered()) explain(info, values);
+  for (const std::optional<double>& value : values) {
     ImGui::TableNextColumn();
-    right_aligned(text_of(info, values.back()));
+    right_aligned(text_of(info, value));
+    if (ImGui::IsItemHovered()) explain(info, values);
   }
   if (values.size() < 2) return;
   ImGui::TableNextColumn();
-  right_aligned(values[0] && values[1] ? difference_text(info, *values[0], *values[1]) : "-");
+  right_aligned(values[0] && values[1] ? number_text(difference(*values[0], *values[1]), info.is_count, true)
+                                       : "-");
 }
 
 void metric_rows(Workbench& bench) {
   const int columns = bench.seats.size() > 1 ? 4 : 2;
   if (!ImGui::BeginTable("metrics", columns, ImGuiTableFlags_RowBg)) return;
-  const float width = ImGui::CalcTextSize("-0.00000").x;
+  const float width = ImGui::CalcTextSize("+0.0000").x;
   ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
   for (std::size_t index = 0; index < bench.seats.size(); ++index) {
     ImGui::TableSetupColumn(seat_name(index).c_str(), ImGuiTableColumnFlags_WidthFixed, width);
@@ -106,11 +117,10 @@ void distance_rows(Workbench& bench) {
 
 /// Bars of the classes, those of the orders stacked.
 void bars(const char* title, const char* unit, const Histogram& histogram) {
-  constexpr float kHeight = 90.0f;
   ImGui::Spacing();
   ImGui::TextUnformatted(title);
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  const ImVec2 size(ImGui::GetContentRegionAvail().x, kHeight);
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, 90.0f * ui_scale());
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0f);
   float most = 1.0f;
@@ -123,12 +133,12 @@ void bars(const char* title, const char* unit, const Histogram& histogram) {
   for (std::size_t index = 0; index < Histogram::kClasses; ++index) {
     float y = low.y + size.y;
     for (std::size_t order = 0; order < histogram.by_order.size(); ++order) {
-      const float height = histogram.by_order[order][index] / most * (size.y - 6.0f);
+      const float bar = histogram.by_order[order][index] / most * (size.y - 6.0f);
       const Color color = categorical_color(order);
       const float x = low.x + width * static_cast<float>(index);
-      list.AddRectFilled({x + 1.0f, y - height}, {x + width - 1.0f, y},
+      list.AddRectFilled({x + 1.0f, y - bar}, {x + width - 1.0f, y},
                          ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1.0f}));
-      y -= height;
+      y -= bar;
     }
   }
   ImGui::Dummy(size);

@@ -38,6 +38,9 @@ constexpr Color kPale = color_of(0xdcdcd8);
 
 constexpr double kLineWidth = 1.5;  // of the style skeleton, pixels of the picture
 
+// More than a buffer of indices holds: three times as many can be counted, too.
+constexpr std::size_t kMostTriangles = std::size_t{1} << 40;
+
 // The ground fades out this far from the tree, in parts of the tree's size.
 constexpr double kGroundReach = 3.5;
 
@@ -118,6 +121,7 @@ Painter::Painter()
 void Painter::load(const Scene& scene, const RenderOptions& options) {
   options_ = options;
   tree_ = Batch();
+  triangle_count_ = 0;
   surfaces_.clear();
   obstacles_ = Batch();
   obstacle_reach_ = 0.0;
@@ -140,6 +144,7 @@ void Painter::load_mesh(const Scene& scene) {
   if (scene.mesh == nullptr || scene.mesh->triangles.empty()) return;
   const Mesh& mesh = *scene.mesh;
   tree_ = triangle_batch(mesh, colors);
+  triangle_count_ = mesh.triangles.size();
   for (const MaterialRange& range : mesh.ranges) {
     // The mesher's branches are closed; a file's need not be, and leaves have two sides.
     const bool is_closed = scene.skeleton != nullptr && !mesh.material(range).is_two_sided;
@@ -274,7 +279,7 @@ Painter::Batch Painter::flat_batch(const std::vector<Vec2f>& corners, const Came
   return batch;
 }
 
-void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size) {
+void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size, const TreePart& part) {
   std::span<const Vec3f> tree;
   std::span<const Vec3f> obstacles;
   if (scene.mesh != nullptr) tree = scene.mesh->positions;
@@ -282,24 +287,24 @@ void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_si
   sun_ = sun_view(sun, {tree, obstacles, figure_corners_}, base_.y);
   if (!shadow_map_ || shadow_map_->size() != map_size) shadow_map_ = std::make_unique<ShadowMap>(map_size);
 
-  shadow_map_->begin();
+  shadow_map_->begin(part.is_first());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   caster_.use();
   if (options_.with_occlusion) {
-    cast(tree_);
-    cast(obstacles_);
-    cast(figure_);
+    cast(tree_, part);
+    if (part.is_first()) cast(obstacles_);
+    if (part.is_first()) cast(figure_);
   }
-  shadow_map_->finish();
+  if (part.end >= triangle_count_) shadow_map_->finish();
 }
 
-void Painter::cast(const Batch& batch) const {
+void Painter::cast(const Batch& batch, const TreePart& part) const {
   caster_.set("world_to_map", moved(sun_.world_to_map, batch.origin));
   caster_.set("ground", static_cast<float>(base_.y - batch.origin.y));
-  draw_triangles(batch, caster_);
+  draw_triangles(batch, caster_, part);
 }
 
 bool Painter::has_ground(const Camera& camera) const {
@@ -309,18 +314,27 @@ bool Painter::has_ground(const Camera& camera) const {
   return options_.style == RenderStyle::lit && is_opaque && is_above;
 }
 
-void Painter::draw(const Camera& camera, const Viewport& viewport) {
+void Painter::draw(const Camera& camera, const Viewport& viewport, const TreePart& part) {
   const glm::dmat4 world_to_clip = cropped(viewport) * camera.world_to_clip();
   glViewport(0, 0, viewport.width, viewport.height);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
-  glClearDepth(1.0);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_DEPTH_TEST);
-  draw_background(viewport);
+  if (part.is_first()) {
+    glClearDepth(1.0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glDisable(GL_DEPTH_TEST);
+    draw_background(viewport);
+  }
+  if (part.end < triangle_count_) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    draw_solid(tree_, world_to_clip, part);
+    glBindVertexArray(0);
+    return;
+  }
 
-  draw_over(camera, viewport);
+  draw_over(camera, viewport, part);
   draw_flat(figure_, world_to_clip);
   if (has_ground(camera)) draw_ground(world_to_clip);
   glDisable(GL_DEPTH_TEST);
@@ -328,14 +342,14 @@ void Painter::draw(const Camera& camera, const Viewport& viewport) {
   glBindVertexArray(0);
 }
 
-void Painter::draw_over(const Camera& camera, const Viewport& viewport) {
+void Painter::draw_over(const Camera& camera, const Viewport& viewport, const TreePart& part) {
   const glm::dmat4 world_to_clip = cropped(viewport) * camera.world_to_clip();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   if (options_.style == RenderStyle::skeleton) {
     draw_lines(world_to_clip, viewport);
   } else {
-    draw_solid(tree_, world_to_clip);
+    draw_solid(tree_, world_to_clip, part);
   }
   draw_solid(obstacles_, world_to_clip);
   glBindVertexArray(0);
@@ -356,7 +370,7 @@ void Painter::draw_background(const Viewport& viewport) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Painter::draw_solid(const Batch& batch, const glm::dmat4& world_to_clip) const {
+void Painter::draw_solid(const Batch& batch, const glm::dmat4& world_to_clip, const TreePart& part) const {
   if (batch.ranges.empty()) return;
   const GlProgram& program = options_.style == RenderStyle::lit ? lit_ : flat_;
   program.use();
@@ -367,7 +381,7 @@ void Painter::draw_solid(const Batch& batch, const glm::dmat4& world_to_clip) co
     program.set("sun_depth", kSunDepthUnit);
     program.set("texel", static_cast<float>(std::max(sun_.size.x, sun_.size.y) / shadow_map_->size()));
   }
-  draw_triangles(batch, program);
+  draw_triangles(batch, program, part);
 }
 
 void Painter::draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const {
@@ -402,13 +416,16 @@ void Painter::draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) con
   draw_triangles(batch, flat_);
 }
 
-void Painter::draw_triangles(const Batch& batch, const GlProgram& program) const {
+void Painter::draw_triangles(const Batch& batch, const GlProgram& program, const TreePart& part) const {
   glBindVertexArray(batch.vertices.id());
   if (batch.count > 0) {
     set_surface({}, program);
     glDrawArrays(GL_TRIANGLES, 0, batch.count);
   }
   for (const Range& range : batch.ranges) {
+    const std::size_t first = std::max(range.first, 3 * part.first);
+    const std::size_t end = std::min(range.first + range.count, 3 * std::min(part.end, kMostTriangles));
+    if (first >= end) continue;
     const Surface& surface = surfaces_[range.surface];
     set_surface(surface, program);
     if (range.is_closed) glEnable(GL_CULL_FACE);
@@ -416,8 +433,8 @@ void Painter::draw_triangles(const Batch& batch, const GlProgram& program) const
     for (const GLenum capability : {GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE}) {
       if (surface.is_cutout) glEnable(capability);
     }
-    const void* offset = reinterpret_cast<const void*>(range.first * sizeof(std::uint32_t));
-    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, offset);
+    const void* offset = reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
+    glDrawElements(GL_TRIANGLES, static_cast<int>(end - first), GL_UNSIGNED_INT, offset);
     for (const GLenum capability : {GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE})
       glDisable(capability);
     glDisable(GL_CULL_FACE);

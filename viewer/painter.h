@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,6 +27,15 @@ struct Viewport {
   double fineness = 1.0;  // pixels of the framebuffer for one of the picture, in which lines are measured
 };
 
+/// Which of the tree's triangles are drawn. Very many are drawn part by part: what is drawn before the tree
+/// goes with its first triangle, what is drawn after it with its last.
+struct TreePart {
+  std::size_t first = 0;
+  std::size_t end = std::numeric_limits<std::size_t>::max();
+
+  bool is_first() const { return first == 0; }
+};
+
 class Painter {
  public:
   /// Needs a current OpenGL 3.3 context, the same one in every call. Throws GraphicsError.
@@ -40,16 +50,19 @@ class Painter {
 
   /// Makes the shadows of what was loaded from `scene`; before draw() in the style lit, even where it is to
   /// be without occlusion and there are none. `map_size`: pixels a side. Leaves its own framebuffer bound.
-  void cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size);
+  void cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size, const TreePart& part = {});
 
   /// How far ground and obstacles reach around the tree's base, metres; 0 if there are none.
   double reach() const { return std::max(ground_reach_, obstacle_reach_); }
 
   /// Draws what was loaded, background first.
-  void draw(const Camera& camera, const Viewport& viewport);
+  void draw(const Camera& camera, const Viewport& viewport, const TreePart& part = {});
+
+  /// Of the tree's mesh.
+  std::size_t triangle_count() const { return triangle_count_; }
 
   /// Draws tree and obstacles alone, among what another painter drew through the same camera.
-  void draw_over(const Camera& camera, const Viewport& viewport);
+  void draw_over(const Camera& camera, const Viewport& viewport, const TreePart& part = {});
 
  private:
   /// Indices that are drawn in one go.
@@ -90,13 +103,13 @@ class Painter {
   void load_sky_light(const Scene& scene);
   Batch flat_batch(const std::vector<Vec2f>& corners, const CameraAxes& axes) const;
   void draw_background(const Viewport& viewport) const;
-  void draw_solid(const Batch& batch, const glm::dmat4& world_to_clip) const;
+  void draw_solid(const Batch& batch, const glm::dmat4& world_to_clip, const TreePart& part = {}) const;
   void draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const;
   void draw_ground(const glm::dmat4& world_to_clip) const;
-  void draw_triangles(const Batch& batch, const GlProgram& program) const;
+  void draw_triangles(const Batch& batch, const GlProgram& program, const TreePart& part = {}) const;
   void set_surface(const Surface& surface, const GlProgram& program) const;
   void draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) const;
-  void cast(const Batch& batch) const;
+  void cast(const Batch& batch, const TreePart& part = {}) const;
   void set_light(const GlProgram& program) const;
   bool has_ground(const Camera& camera) const;
 
@@ -110,6 +123,7 @@ class Painter {
 
   RenderOptions options_;
   Batch tree_;
+  std::size_t triangle_count_ = 0;
   std::vector<Surface> surfaces_;
   Batch obstacles_;
   std::vector<Vec3f> figure_corners_;

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <limits>
+#include <string_view>
 
 #include "common/mesh/attribute_colors.h"
+#include "viewer/theme.h"
 
 namespace ramify {
 namespace {
@@ -23,8 +26,23 @@ constexpr Sampling kAtRest{.fineness = 1, .samples = 4};
 
 constexpr Sampling kFinest{.fineness = 2, .samples = 4};
 
+// Seconds a part of a picture that is drawn gradually.
+constexpr double kMoment = 0.12;
+constexpr std::size_t kSmallestPart = 20'000;  // triangles
+
 // Seconds that kAtRest may take for kFinest to come after it: the window is not to stand still.
 constexpr double kQuickAtRest = 0.08;
+
+double now_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Whether the processor draws: then very many triangles take seconds.
+bool is_drawn_in_software() {
+  const GLubyte* name = glGetString(GL_RENDERER);
+  return name != nullptr &&
+         std::string_view(reinterpret_cast<const char*>(name)).find("pipe") != std::string_view::npos;
+}
 
 /// The sun stays where it is while the viewer walks around.
 CameraAxes sun() {
@@ -60,9 +78,19 @@ void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show)
       notice_ = fmt::format("this tree has no attribute '{}'", show.color_by);
     }
   }
-  loaded.painter.load(scene, options);
-  if (options.style == RenderStyle::lit) {
-    loaded.painter.cast_shadows(scene, sun(), options.with_occlusion ? kShadowMapSize : 64);
+  loaded.coarse.reset();
+  loaded.options = options;
+  loaded.is_fine = true;
+  loaded.shadowed = std::numeric_limits<std::size_t>::max();
+  const bool is_gradual = options.style != RenderStyle::skeleton && exhibits_at_once_ == 1 &&
+                          !exhibit.product->coarse.triangles.empty() && is_drawn_in_software();
+  if (is_gradual) {
+    load_coarse(loaded, *exhibit.product, show);
+  } else {
+    loaded.painter.load(scene, options);
+    if (options.style == RenderStyle::lit) {
+      loaded.painter.cast_shadows(scene, sun(), options.with_occlusion ? kShadowMapSize : 64);
+    }
   }
   loaded.overlay.load(*exhibit.product, show.layers, show.are_slices);
   loaded.base = base_of(scene);
@@ -71,9 +99,25 @@ void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show)
   loaded.tint = exhibit.tint;
 }
 
+/// What is drawn at once; the fine mesh comes later.
+void Pane::load_coarse(Loaded& loaded, const Product& product, const ShowOptions& show) {
+  Scene scene = scene_of(product, show);
+  scene.mesh = &product.coarse;
+  loaded.coarse = std::make_unique<Painter>();
+  loaded.coarse->load(scene, loaded.options);
+  loaded.is_fine = false;
+  if (loaded.options.style != RenderStyle::lit) return;
+  loaded.coarse->cast_shadows(scene, sun(), kShadowMapSize);
+  loaded.shadowed = 0;
+}
+
 unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
                        int width, int height, Quality quality) {
+  const double start = now_seconds();
   is_stale_ = is_stale_ || loaded_.size() != exhibits.size() || orbit_ != orbit || quality_ != quality;
+  // Of two trees in one picture each hides parts of the other: they are drawn in one go.
+  if (exhibits_at_once_ != exhibits.size()) loaded_.clear();
+  exhibits_at_once_ = exhibits.size();
   loaded_.resize(exhibits.size());
   Box box;
   for (std::size_t index = 0; index < exhibits.size(); ++index) {
@@ -97,14 +141,23 @@ unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& 
   height_ = height;
   quality_ = quality;
   orbit_ = orbit;
-  if (is_stale_) draw_anew();
+  if (is_stale_) {
+    draw_anew();
+    ++drawn_count_;
+    last_seconds_ = now_seconds() - start;
+  }
+  if (!is_stale_ && is_unfinished_ && quality != Quality::moving) draw_more(exhibits.front());
   is_stale_ = false;
-  return target_->picture().id();
+  return (shows_gradual_ ? gradual_target_ : target_)->target.picture().id();
 }
 
 void Pane::draw_anew() {
-  if (quality_ == Quality::moving) {
+  shows_gradual_ = false;
+  is_unfinished_ = loaded_.size() == 1 && loaded_.front()->coarse;
+  drawn_triangles_ = 0;
+  if (quality_ == Quality::moving || is_unfinished_) {
     const double seconds = draw(kMoving);
+    if (quality_ != Quality::moving) return;
     if (seconds > kSlow) shrink_ = 2;
     if (seconds < kQuick) shrink_ = 1;
   } else if (quality_ == Quality::finest || draw(kAtRest) < kQuickAtRest) {
@@ -114,10 +167,11 @@ void Pane::draw_anew() {
 
 Image Pane::image() const {
   Image image{width_, height_, {}};
-  if (!target_) return image;
+  const std::unique_ptr<Target>& shown = shows_gradual_ ? gradual_target_ : target_;
+  if (!shown) return image;
   const std::size_t row = 4 * static_cast<std::size_t>(width_);
   std::vector<std::uint8_t> rows(row * height_);
-  target_->read(width_, height_, rows.data());
+  shown->target.read(width_, height_, rows.data());
   for (int y = height_ - 1; y >= 0; --y) {
     image.rgba.insert(image.rgba.end(), rows.begin() + row * y, rows.begin() + row * (y + 1));
   }
@@ -126,47 +180,99 @@ Image Pane::image() const {
 }
 
 /// Upright, beside the tree, and turned to the viewer.
-void Pane::stand_figure(Loaded& loaded, const Orbit& orbit) const {
-  loaded.painter.load_annotations(annotations_beside(box_, loaded.base, orbit.azimuth_deg), loaded.base,
-                                  camera_axes(orbit.azimuth_deg, 0.0));
+void Pane::stand_figure(Painter& painter, const Loaded& loaded) const {
+  painter.load_annotations(annotations_beside(box_, loaded.base, orbit_.azimuth_deg), loaded.base,
+                           camera_axes(orbit_.azimuth_deg, 0.0));
+}
+
+/// A target as large as the picture.
+void Pane::require(std::unique_ptr<Target>& target, const Sampling& sampling) const {
+  if (target && target->width == width_ && target->height == height_ &&
+      target->target.sampling() == sampling) {
+    return;
+  }
+  target.reset();
+  target = std::make_unique<Target>(width_, height_, sampling);
 }
 
 /// Returns the seconds it took.
 double Pane::draw(const Sampling& sampling) {
-  if (!target_ || target_width_ != width_ || target_height_ != height_ || target_->sampling() != sampling) {
-    target_.reset();
-    target_ = std::make_unique<RenderTarget>(width_, height_, sampling);
-    target_width_ = width_;
-    target_height_ = height_;
-  }
-  const auto start = std::chrono::steady_clock::now();
+  require(target_, sampling);
+  const double start = now_seconds();
+  target_->target.begin();
+  draw_exhibits(sampling, {}, true);
+  finish(*target_);
+  return now_seconds() - start;
+}
+
+/// Into the framebuffer that is bound; `is_coarse`: trees of very many triangles by their coarse meshes.
+void Pane::draw_exhibits(const Sampling& sampling, const TreePart& part, bool is_coarse) {
   const double aspect = static_cast<double>(width_) / height_;
   double reach = 0.0;
-  for (const auto& loaded : loaded_) reach = std::max(reach, loaded->painter.reach());
   for (const auto& loaded : loaded_) {
-    if (loaded->show.with_scale && loaded == loaded_.front()) stand_figure(*loaded, orbit_);
+    reach = std::max(reach, (loaded->coarse ? *loaded->coarse : loaded->painter).reach());
   }
   const Camera camera = camera_of(orbit_, aspect, box_, reach);
   Viewport viewport;
   viewport.width = sampling.fineness * width_;
   viewport.height = sampling.fineness * height_;
-  viewport.fineness = sampling.fineness;
-  target_->begin();
+  viewport.fineness = sampling.fineness * display_scale();
   for (std::size_t index = 0; index < loaded_.size(); ++index) {
+    Loaded& loaded = *loaded_[index];
+    Painter& painter = is_coarse && loaded.coarse ? *loaded.coarse : loaded.painter;
+    if (index == 0 && loaded.show.with_scale && part.is_first()) stand_figure(painter, loaded);
     if (index == 0) {
-      loaded_[index]->painter.draw(camera, viewport);
+      painter.draw(camera, viewport, part);
     } else {
-      loaded_[index]->painter.draw_over(camera, viewport);
+      painter.draw_over(camera, viewport);
     }
-    loaded_[index]->overlay.draw(camera, viewport);
+    if (part.end >= painter.triangle_count()) loaded.overlay.draw(camera, viewport);
   }
-  target_->finish(width_, height_);
-  glBindTexture(GL_TEXTURE_2D, target_->picture().id());
+}
+
+/// Waits until it is drawn, for the next one to know how long that takes.
+void Pane::finish(Target& target) const {
+  target.target.finish(width_, height_);
+  glBindTexture(GL_TEXTURE_2D, target.target.picture().id());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glFinish();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Takes over the fine mesh, or draws a part of its shadows, or of the picture, which is shown when it is
+/// whole.
+void Pane::draw_more(const Exhibit& exhibit) {
+  Loaded& loaded = *loaded_.front();
+  if (!loaded.is_fine) {
+    loaded.painter.load(scene_of(*exhibit.product, loaded.show), loaded.options);
+    loaded.is_fine = true;
+    return;
+  }
+  const Sampling& sampling = quality_ == Quality::finest ? kFinest : kAtRest;
+  const std::size_t total = loaded.painter.triangle_count();
+  const bool is_casting = loaded.shadowed < total;
+  std::size_t& done = is_casting ? loaded.shadowed : drawn_triangles_;
+  TreePart part{.first = done};
+  if (done + part_size_ < total) part.end = done + part_size_;
+  const double start = now_seconds();
+  if (is_casting) {
+    loaded.painter.cast_shadows(scene_of(*exhibit.product, loaded.show), sun(), kShadowMapSize, part);
+  } else {
+    require(gradual_target_, sampling);
+    gradual_target_->target.begin();
+    draw_exhibits(sampling, part, false);
+    is_unfinished_ = part.end < total;
+    shows_gradual_ = !is_unfinished_;
+    if (!is_unfinished_) finish(*gradual_target_);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glFinish();
+  done = std::min(part.end, total);
+  const double seconds = std::max(now_seconds() - start, 1e-4);
+  const double wanted = static_cast<double>(part_size_) * std::clamp(kMoment / seconds, 0.25, 4.0);
+  part_size_ = std::max(kSmallestPart, static_cast<std::size_t>(wanted));
+  if (!is_unfinished_) ++drawn_count_;
 }
 
 }  // namespace ramify

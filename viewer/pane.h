@@ -35,6 +35,13 @@ class Pane {
   unsigned picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
                    int width, int height, Quality quality);
 
+  /// Whether the picture is coarse yet: more calls of picture() make it as fine as it was asked for.
+  bool is_unfinished() const { return is_unfinished_; }
+
+  /// How often it was drawn, and the seconds that the last time took, loading the tree included.
+  std::size_t drawn_count() const { return drawn_count_; }
+  double last_seconds() const { return last_seconds_; }
+
   /// Width over height of the last picture.
   double aspect() const { return height_ > 0 ? static_cast<double>(width_) / height_ : 1.0; }
 
@@ -48,6 +55,10 @@ class Pane {
   /// What a painter has loaded.
   struct Loaded {
     Painter painter;
+    std::unique_ptr<Painter> coarse;  // of a tree of very many triangles
+    RenderOptions options;            // that the fine one is to be loaded with
+    bool is_fine = true;              // whether it was
+    std::size_t shadowed = 0;         // of its triangles, those that cast their shadows
     Overlay overlay;
     Vec3 base{0.0};
     std::uint64_t serial = 0;  // of the product
@@ -55,15 +66,33 @@ class Pane {
     std::optional<Color> tint;
   };
 
+  /// With the size that it was made for.
+  struct Target {
+    RenderTarget target;
+    int width;
+    int height;
+
+    Target(int w, int h, const Sampling& sampling) : target(w, h, sampling), width(w), height(h) {}
+  };
+
   void load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show);
+  void load_coarse(Loaded& loaded, const Product& product, const ShowOptions& show);
   void draw_anew();
   double draw(const Sampling& sampling);
-  void stand_figure(Loaded& loaded, const Orbit& orbit) const;
+  void draw_exhibits(const Sampling& sampling, const TreePart& part, bool is_coarse);
+  void require(std::unique_ptr<Target>& target, const Sampling& sampling) const;
+  void finish(Target& target) const;
+  void draw_more(const Exhibit& exhibit);
+  void stand_figure(Painter& painter, const Loaded& loaded) const;
 
   std::vector<std::unique_ptr<Loaded>> loaded_;
-  std::unique_ptr<RenderTarget> target_;
-  int target_width_ = 0;
-  int target_height_ = 0;
+  std::unique_ptr<Target> target_;
+  std::unique_ptr<Target> gradual_target_;  // in which a picture is drawn part by part
+  std::size_t drawn_triangles_ = 0;         // in it
+  std::size_t part_size_ = 100'000;         // triangles that take a moment
+  bool is_unfinished_ = false;
+  bool shows_gradual_ = false;
+  std::size_t exhibits_at_once_ = 0;
   int width_ = 0;
   int height_ = 0;
   Quality quality_ = Quality::at_rest;
@@ -72,6 +101,8 @@ class Pane {
   bool is_stale_ = true;
   Box box_;
   std::string notice_;
+  std::size_t drawn_count_ = 0;
+  double last_seconds_ = 0.0;
 };
 
 }  // namespace ramify

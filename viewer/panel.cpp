@@ -120,7 +120,7 @@ WidgetOutcome Rows::scalar(const FieldRow& row, const Owners& members, const std
   const float width = ImGui::GetContentRegionAvail().x;
   outcome |= field_widget(row, members.now, members.opened, panel_.last_step);
   if (ImGui::IsItemVisible()) {
-    report_.add(key, before.x, before.y, before.x + width, before.y + ImGui::GetFrameHeight());
+    report_.add(key, before.x, before.y, before.x + width, ImGui::GetItemRectMax().y);
   }
 
   ImGui::TableNextColumn();

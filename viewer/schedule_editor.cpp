@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/theme.h"
+
 namespace ramify {
 namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
+// Of a plain display.
 constexpr float kHeight = 84.0f;
-constexpr float kReach = 9.0f;  // pixels from a point at which the mouse takes it
+constexpr float kReach = 9.0f;  // from a point at which the mouse takes it
 
 /// Between the plane of the schedule and the window's pixels.
 struct Plot {
@@ -31,8 +34,9 @@ struct Plot {
     double across = std::clamp(double(at.x - low.x) / size.x, 0.0, 1.0) * last;
     across = is_whole ? std::round(across) : std::round(across * 100.0) / 100.0;
     const double up = std::clamp(1.0 - double(at.y - low.y) / size.y, 0.0, 1.0);
-    const double step = std::pow(10.0, std::floor(std::log10(range.high - range.low)) - 2.0);
-    return {across, std::clamp(std::round((range.low + up * (range.high - range.low)) / step) * step,
+    // By division, so that 0.57 is 0.57.
+    const double steps = std::pow(10.0, 2.0 - std::floor(std::log10(range.high - range.low)));
+    return {across, std::clamp(std::round((range.low + up * (range.high - range.low)) * steps) / steps,
                                range.low, range.high)};
   }
 };
@@ -40,7 +44,7 @@ struct Plot {
 /// The point under the mouse, or -1.
 int point_at(const Plot& plot, const Points& points, const ImVec2& mouse) {
   int nearest = -1;
-  float least = kReach;
+  float least = kReach * ui_scale();
   for (std::size_t index = 0; index < points.size(); ++index) {
     const ImVec2 at = plot.place(points[index]);
     const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);
@@ -64,10 +68,10 @@ void draw_curve(const Plot& plot, const Schedule& schedule, int marked) {
     const double across = plot.last * piece / kPieces;
     curve.push_back(plot.place({across, schedule.at(across)}));
   }
-  list.AddPolyline(curve.data(), static_cast<int>(curve.size()), line, 0, 1.5f);
+  list.AddPolyline(curve.data(), static_cast<int>(curve.size()), line, 0, 1.5f * ui_scale());
   for (std::size_t index = 0; index < schedule.points().size(); ++index) {
     const float radius = static_cast<int>(index) == marked ? 5.0f : 3.5f;
-    list.AddCircleFilled(plot.place(schedule.points()[index]), radius, line);
+    list.AddCircleFilled(plot.place(schedule.points()[index]), radius * ui_scale(), line);
   }
   list.PopClipRect();
 }
@@ -95,12 +99,16 @@ WidgetOutcome schedule_curve(const char* id, Schedule& schedule, double last, co
   Points points = schedule.points();
   last = std::max({last, points.back().first, 1e-3});
   const bool is_whole = last > 3.0;  // steps rather than parts of a way
-  const Plot plot{ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, kHeight}, last, range};
+  const Plot plot{
+      ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, kHeight * ui_scale()}, last, range};
   ImGui::InvisibleButton(id, plot.size);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   // Which point is dragged is kept by ImGui under this widget's name.
   int& dragged = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("dragged"), -1);
   WidgetOutcome outcome;
+  // Where it was let go counts, too: a busy window may have missed the way there.
+  const bool is_held = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
+  const ImVec2 pressed = ImGui::GetIO().MouseClickedPos[0];
   const int under = ImGui::IsItemHovered() ? point_at(plot, points, mouse) : -1;
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && under < 0) {
     add_point(points, plot.point(mouse, is_whole));
@@ -110,8 +118,8 @@ WidgetOutcome schedule_curve(const char* id, Schedule& schedule, double last, co
     outcome = {true, true};
   } else if (ImGui::IsItemActivated()) {
     dragged = under;
-  } else if (ImGui::IsItemActive() && dragged >= 0 && dragged < static_cast<int>(points.size()) &&
-             ImGui::IsMouseDragging(0, 1.0f)) {
+  } else if (is_held && dragged >= 0 && dragged < static_cast<int>(points.size()) &&
+             std::hypot(mouse.x - pressed.x, mouse.y - pressed.y) > 1.0f) {
     move_point(points, static_cast<std::size_t>(dragged), plot.point(mouse, is_whole), is_whole ? 1.0 : 0.01);
     outcome.is_changed = points != schedule.points();
   }

@@ -8,6 +8,7 @@
 
 #include "viewer/actions.h"
 #include "viewer/show_view.h"
+#include "viewer/theme.h"
 
 namespace ramify {
 namespace {
@@ -26,8 +27,10 @@ ImVec2 plus(const ImVec2& a, const ImVec2& b) {
 void label(const ImVec2& at, const std::string& text, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  list.AddRectFilled({at.x - 5.0f, at.y - 2.0f}, {at.x + size.x + 5.0f, at.y + size.y + 2.0f},
-                     IM_COL32(24, 24, 25, 190), 3.0f);
+  const float unit = ui_scale();
+  list.AddRectFilled({at.x - 5.0f * unit, at.y - 2.0f * unit},
+                     {at.x + size.x + 5.0f * unit, at.y + size.y + 2.0f * unit}, IM_COL32(24, 24, 25, 190),
+                     3.0f * unit);
   list.AddText(at, color, text.c_str());
 }
 
@@ -56,7 +59,8 @@ std::string caption(const Workbench& bench, std::size_t index) {
 /// What stands in the corner of a picture: its tree, or both in one, each with its colour.
 float show_captions(const Workbench& bench, std::size_t index, ImVec2 at) {
   constexpr ImU32 kText = IM_COL32(228, 228, 230, 255);
-  const float line = ImGui::GetTextLineHeight() + 8.0f;
+  const float unit = ui_scale();
+  const float line = ImGui::GetTextLineHeight() + 8.0f * unit;
   if (bench.show.arrangement == Arrangement::side_by_side) {
     label(at, caption(bench, index), kText);
     return at.y + line;
@@ -65,9 +69,9 @@ float show_captions(const Workbench& bench, std::size_t index, ImVec2 at) {
   for (std::size_t seat = 0; seat < bench.seats.size(); ++seat) {
     const Color& tint = seat == 0 ? kFirstTint : kSecondTint;
     ImGui::GetWindowDrawList()->AddRectFilled(
-        {at.x - 5.0f, at.y - 2.0f}, {at.x + swatch, at.y + swatch + 2.0f},
-        ImGui::ColorConvertFloat4ToU32({tint.r, tint.g, tint.b, 1.0f}), 3.0f);
-    label({at.x + swatch + 10.0f, at.y}, caption(bench, seat), kText);
+        {at.x - 5.0f * unit, at.y - 2.0f * unit}, {at.x + swatch, at.y + swatch + 2.0f * unit},
+        ImGui::ColorConvertFloat4ToU32({tint.r, tint.g, tint.b, 1.0f}), 3.0f * unit);
+    label({at.x + swatch + 10.0f * unit, at.y}, caption(bench, seat), kText);
     at.y += line;
   }
   return at.y;
@@ -122,8 +126,8 @@ void show_picture(Workbench& bench, std::size_t index, const ImVec2& size) {
                              ImGuiButtonFlags_MouseButtonMiddle);
   bench.report.add("pane." + seat_name(index));
   lead_camera(bench, index, size);
-  // Now, not before the camera was led: a move's first picture is quick, too.
-  bench.is_drawn_fast = bench.is_moving();
+  // Now, not before the camera was led: a move's first picture is quick, too. Once one is, so are the others.
+  bench.is_drawn_fast = bench.is_drawn_fast || bench.is_moving();
   if (exhibits.empty()) return;
   frame_first(bench, seat, size.x / size.y);
   Orbit orbit = seat.orbit;
@@ -143,11 +147,11 @@ void show_state(Workbench& bench, std::size_t index, const ImVec2& low, const Im
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const WorkState work = seat.document.work();
   if (work.is_busy && work.part > 0.0) {
-    list.AddRectFilled(low, {low.x + size.x * static_cast<float>(work.part), low.y + 3.0f},
+    list.AddRectFilled(low, {low.x + size.x * static_cast<float>(work.part), low.y + 3.0f * ui_scale()},
                        ImGui::GetColorU32(ImGuiCol_PlotHistogram));
   }
-  const ImVec2 corner(low.x + 12.0f, low.y + 10.0f);
-  const float line = ImGui::GetTextLineHeight() + 8.0f;
+  const ImVec2 corner(low.x + 12.0f * ui_scale(), low.y + 10.0f * ui_scale());
+  const float line = ImGui::GetTextLineHeight() + 8.0f * ui_scale();
   float y = show_captions(bench, index, corner);
   const auto tell = [&](const std::string& text, ImU32 color) {
     if (text.empty()) return;
@@ -193,23 +197,25 @@ void show_steps(Workbench& bench, std::size_t index) {
 
 void show_seat(Workbench& bench, std::size_t index, const ImVec2& size) {
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  const float steps = ImGui::GetFrameHeight() + 8.0f;
+  const float unit = ui_scale();
+  const float steps = ImGui::GetFrameHeight() + 8.0f * unit;
   const ImVec2 picture(size.x, std::max(1.0f, size.y - steps));
   show_picture(bench, index, picture);
   show_state(bench, index, low, picture);
   show_legend(bench, index, low.x + picture.x, low.y + picture.y);
   if (bench.seats.size() > 1 && index == bench.active) {
     ImGui::GetWindowDrawList()->AddRect(low, plus(low, picture), ImGui::GetColorU32(ImGuiCol_SliderGrab),
-                                        0.0f, 0, 1.5f);
+                                        0.0f, 0, 1.5f * unit);
   }
-  ImGui::SetCursorScreenPos({low.x + 6.0f, low.y + picture.y + 4.0f});
-  if (ImGui::BeginChild("steps", {size.x - 12.0f, ImGui::GetFrameHeight()})) show_steps(bench, index);
+  ImGui::SetCursorScreenPos({low.x + 6.0f * unit, low.y + picture.y + 4.0f * unit});
+  if (ImGui::BeginChild("steps", {size.x - 12.0f * unit, ImGui::GetFrameHeight()})) show_steps(bench, index);
   ImGui::EndChild();
 }
 
 }  // namespace
 
 void show_seats(Workbench& bench) {
+  bench.is_drawn_fast = false;
   const std::size_t count = pane_count(bench);
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const ImVec2 low = ImGui::GetCursorScreenPos();

@@ -9,7 +9,7 @@
 namespace ramify {
 
 struct Settings {
-  int width = 1280;  // of the window, in the display's units
+  int width = 1280;  // of the window, as in Window::Options
   int height = 800;
   bool are_cameras_linked = true;
   bool is_same_scale = false;

@@ -328,9 +328,9 @@ layout(location = 2) in vec4 color;
 uniform mat4 world_to_clip;
 uniform vec2 viewport;     // pixels
 uniform float half_width;  // pixels
-out vec3 paint;
+out vec4 paint;
 void main() {
-  paint = linear_of(color.rgb);
+  paint = vec4(linear_of(color.rgb), color.a);
   vec4 from = world_to_clip * vec4(start, 1.0);
   vec4 to = world_to_clip * vec4(end, 1.0);
   vec2 along = (to.xy / to.w - from.xy / from.w) * viewport;
@@ -351,9 +351,9 @@ layout(location = 0) in vec3 middle;
 layout(location = 2) in vec4 color;
 uniform mat4 world_to_clip;
 uniform float side;  // metres
-out vec3 paint;
+out vec4 paint;
 void main() {
-  paint = linear_of(color.rgb);
+  paint = vec4(linear_of(color.rgb), color.a);
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) - 0.5;
   gl_Position = world_to_clip * vec4(middle + side * vec3(corner, 0.0), 1.0);
 }
@@ -362,9 +362,80 @@ void main() {
 
 std::string line_fragment() {
   return R"(
-in vec3 paint;
+in vec4 paint;
 out vec4 color;
-void main() { color = vec4(paint, 1.0); }
+void main() { color = vec4(paint.rgb * paint.a, paint.a); }
+)";
+}
+
+std::string dot_vertex() {
+  return std::string(kDecode) + R"(
+layout(location = 0) in vec3 middle;
+layout(location = 2) in vec4 color;
+uniform mat4 world_to_clip;
+uniform vec2 viewport;  // pixels
+uniform float radius;   // pixels, of a dot where clip space's w is 1
+uniform vec2 bounds;    // the least and greatest radius, pixels
+out vec4 paint;
+out vec2 place;
+void main() {
+  paint = vec4(linear_of(color.rgb), color.a);
+  place = 2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0;
+  vec4 at = world_to_clip * vec4(middle, 1.0);
+  float size = clamp(radius / at.w, bounds.x, bounds.y);
+  gl_Position = at + vec4(2.0 * size * place / viewport * at.w, 0.0, 0.0);
+}
+)";
+}
+
+std::string dot_fragment() {
+  return R"(
+in vec4 paint;
+in vec2 place;  // from -1 to 1 over the dot
+out vec4 color;
+void main() {
+  float square = dot(place, place);
+  if (square > 1.0) discard;
+  // A ball, lit from above on the left.
+  vec3 normal = vec3(place, sqrt(1.0 - square));
+  float light = 0.55 + 0.6 * max(dot(normal, vec3(-0.37, 0.64, 0.67)), 0.0);
+  color = vec4(min(paint.rgb * light, vec3(1.0)) * paint.a, paint.a);
+}
+)";
+}
+
+std::string veil_vertex() {
+  return R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 world_to_clip;
+out vec3 world;
+out vec3 world_normal;
+void main() {
+  world = position;
+  world_normal = normal;
+  gl_Position = world_to_clip * vec4(position, 1.0);
+}
+)";
+}
+
+std::string veil_fragment() {
+  return R"(
+in vec3 world;
+in vec3 world_normal;
+uniform vec4 eye;  // with w 0 the direction towards a viewer without perspective
+uniform vec3 paint;
+uniform vec3 middle;
+uniform float reach;  // metres from the middle
+out vec4 color;
+void main() {
+  vec3 to_eye = normalize(eye.xyz - world * eye.w);
+  float facing = abs(dot(normalize(world_normal), to_eye));
+  // A soap bubble: one looks through more of it where it is seen from the side.
+  float opacity = 0.07 + 0.43 * pow(1.0 - facing, 2.5);
+  opacity *= 1.0 - smoothstep(0.5, 1.0, distance(world, middle) / reach);
+  color = vec4(paint * opacity, opacity);
+}
 )";
 }
 

@@ -31,4 +31,12 @@ std::string line_vertex();
 std::string square_vertex();
 std::string line_fragment();
 
+/// Dots that grow towards the viewer, shaded like balls.
+std::string dot_vertex();
+std::string dot_fragment();
+
+/// Surfaces that are seen through; least where they face the viewer.
+std::string veil_vertex();
+std::string veil_fragment();
+
 }  // namespace ramify::shaders

@@ -27,9 +27,10 @@ ShadowMap::ShadowMap(int size) : size_(size) {
   require_complete_framebuffer();
 }
 
-void ShadowMap::begin() {
+void ShadowMap::begin(bool is_cleared) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glViewport(0, 0, size_, size_);
+  if (!is_cleared) return;
   glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   glClearDepth(1.0);
   glDepthMask(GL_TRUE);

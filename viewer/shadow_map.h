@@ -15,7 +15,7 @@ class ShadowMap {
   int size() const { return size_; }
 
   /// Clears the map and makes it what is drawn into.
-  void begin();
+  void begin(bool is_cleared = true);
 
   /// Makes the coarser copies. The caller binds its own framebuffer again.
   void finish();

@@ -9,7 +9,8 @@
 #include "common/mesh/attribute_colors.h"
 #include "common/mesh/palette.h"
 #include "viewer/actions.h"
-#include "viewer/overlay.h"
+#include "viewer/marks.h"
+#include "viewer/theme.h"
 
 namespace ramify {
 namespace {
@@ -68,6 +69,38 @@ ImU32 packed(const Color& color) {
   return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1.0f});
 }
 
+/// A square and the value for each, beginning at the upper left corner.
+void legend_entries(ImDrawList& list, const AttributeScale& scale, const ImVec2& low, float width) {
+  constexpr int kMost = 9;
+  const float unit = ui_scale();
+  const int count = std::min(kMost, static_cast<int>(scale.high - scale.low) + 1);
+  for (int entry = 0; entry < count; ++entry) {
+    const auto value = static_cast<std::size_t>(scale.low) + static_cast<std::size_t>(entry);
+    const float x = low.x + width / kMost * static_cast<float>(entry);
+    list.AddRectFilled({x, low.y + 3.0f * unit}, {x + 8.0f * unit, low.y + 11.0f * unit},
+                       packed(categorical_color(value)));
+    legend_text(list, {x + 10.0f * unit, low.y - 1.0f * unit}, std::to_string(value));
+  }
+}
+
+/// All colours in a row between the least and the greatest value, as far as `right`.
+void legend_ramp(ImDrawList& list, const AttributeScale& scale, const ImVec2& low, float right) {
+  const float unit = ui_scale();
+  const std::string from = fmt::format("{:.3g}", scale.low);
+  const std::string to = fmt::format("{:.3g}", scale.high);
+  const float start = low.x + 6.0f * unit + ImGui::CalcTextSize(from.c_str()).x;
+  const float end = right - 6.0f * unit - ImGui::CalcTextSize(to.c_str()).x;
+  legend_text(list, low, from);
+  legend_text(list, {end + 6.0f * unit, low.y}, to);
+  constexpr int kPieces = 48;
+  for (int piece = 0; piece < kPieces; ++piece) {
+    const float x = start + (end - start) * static_cast<float>(piece) / kPieces;
+    list.AddRectFilled({x, low.y + 3.0f * unit},
+                       {x + (end - start) / kPieces + 1.0f, low.y + ImGui::GetTextLineHeight() - 2.0f * unit},
+                       packed(sequential_color((piece + 0.5) / kPieces)));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> overlays_of(const Workbench& bench) {
@@ -122,34 +155,20 @@ void show_legend(const Workbench& bench, std::size_t index, float right, float b
   const std::vector<std::string> known = color_attributes(product->skeleton);
   if (std::find(known.begin(), known.end(), name) == known.end()) return;
   const AttributeScale scale = attribute_scale(product->skeleton, name);
+  const float unit = ui_scale();
   const float line = ImGui::GetTextLineHeight();
   const float width = 14.0f * line;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 low(right - width - 20.0f, bottom - 2.0f * line - 26.0f);
-  list.AddRectFilled(low, {right - 6.0f, bottom - 6.0f}, IM_COL32(24, 24, 25, 200), 3.0f);
-  legend_text(list, {low.x + 8.0f, low.y + 5.0f}, name + (scale.is_logarithmic ? " (logarithmic)" : ""));
-  const float y = low.y + line + 10.0f;
+  const ImVec2 low(right - width - 20.0f * unit, bottom - 2.0f * line - 26.0f * unit);
+  list.AddRectFilled(low, {right - 6.0f * unit, bottom - 6.0f * unit}, IM_COL32(24, 24, 25, 200),
+                     3.0f * unit);
+  const float x = low.x + 8.0f * unit;
+  legend_text(list, {x, low.y + 5.0f * unit}, name + (scale.is_logarithmic ? " (logarithmic)" : ""));
+  const float y = low.y + line + 10.0f * unit;
   if (scale.is_categorical) {
-    const int count = std::min(9, static_cast<int>(scale.high - scale.low) + 1);
-    for (int entry = 0; entry < count; ++entry) {
-      const auto value = static_cast<std::size_t>(scale.low) + static_cast<std::size_t>(entry);
-      const float x = low.x + 8.0f + (width - 8.0f) / 9.0f * static_cast<float>(entry);
-      list.AddRectFilled({x, y + 3.0f}, {x + 8.0f, y + 11.0f}, packed(categorical_color(value)));
-      legend_text(list, {x + 10.0f, y - 1.0f}, std::to_string(value));
-    }
-    return;
-  }
-  const std::string from = fmt::format("{:.3g}", scale.low);
-  const std::string to = fmt::format("{:.3g}", scale.high);
-  const float start = low.x + 14.0f + ImGui::CalcTextSize(from.c_str()).x;
-  const float end = right - 20.0f - ImGui::CalcTextSize(to.c_str()).x;
-  legend_text(list, {low.x + 8.0f, y}, from);
-  legend_text(list, {end + 6.0f, y}, to);
-  constexpr int kPieces = 48;
-  for (int piece = 0; piece < kPieces; ++piece) {
-    const float x = start + (end - start) * static_cast<float>(piece) / kPieces;
-    list.AddRectFilled({x, y + 3.0f}, {x + (end - start) / kPieces + 1.0f, y + line - 2.0f},
-                       packed(sequential_color((piece + 0.5) / kPieces)));
+    legend_entries(list, scale, {x, y}, width - 8.0f * unit);
+  } else {
+    legend_ramp(list, scale, {x, y}, right - 14.0f * unit);
   }
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 constexpr float kFontSize = 15.0f;
 
+float scale_in_use = 1.0f;
+double density_in_use = 1.0;
+
 ImVec4 grey(float level, float alpha = 1.0f) {
   return {level, level, level * 1.03f, alpha};
 }
@@ -67,7 +70,9 @@ void set_colors(ImVec4* colors) {
 
 }  // namespace
 
-std::string apply_theme(double scale) {
+std::string apply_theme(double scale, double density) {
+  scale_in_use = static_cast<float>(scale);
+  density_in_use = density;
   ImGuiStyle& style = ImGui::GetStyle();
   ImGui::StyleColorsDark();
   set_colors(style.Colors);
@@ -91,13 +96,22 @@ std::string apply_theme(double scale) {
   style.ScaleAllSizes(static_cast<float>(scale));
 
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-  const float size = kFontSize * static_cast<float>(scale);
+  ImGui::GetIO().FontGlobalScale = static_cast<float>(1.0 / density);
+  const float size = kFontSize * static_cast<float>(scale * density);
   const std::filesystem::path font = installed_font();
   if (!font.empty() && fonts.AddFontFromFileTTF(font.c_str(), size)) return {};
   ImFontConfig coarse;
-  coarse.SizePixels = 13.0f * static_cast<float>(scale);
+  coarse.SizePixels = 13.0f * static_cast<float>(scale * density);
   fonts.AddFontDefault(&coarse);
   return "no font found (package fonts-dejavu-core): the letters are coarse";
+}
+
+float ui_scale() {
+  return scale_in_use;
+}
+
+double display_scale() {
+  return scale_in_use * density_in_use;
 }
 
 }  // namespace ramify

@@ -17,13 +17,14 @@
 #include "viewer/seat_view.h"
 #include "viewer/settings.h"
 #include "viewer/sidebar.h"
+#include "viewer/theme.h"
 #include "viewer/window.h"
 #include "viewer/workbench.h"
 
 namespace ramify {
 namespace {
 
-constexpr float kSidebarWidth = 370.0f;  // of the plain font's size
+constexpr float kSidebarWidth = 370.0f;  // of a plain display
 constexpr float kSidebarShare = 0.4f;    // of the window at most
 
 // ImGui needs a few frames to settle after an input.
@@ -53,9 +54,9 @@ void area(const char* name, const ImVec2& low, const ImVec2& size, const ImVec2&
 void lay_out(Workbench& bench, Gallery& gallery) {
   show_menus(bench);
   const ImGuiViewport& whole = *ImGui::GetMainViewport();
-  const float scale = ImGui::GetFontSize() / 15.0f;
+  const float scale = ui_scale();
   const float sidebar = std::floor(std::min(kSidebarWidth * scale, kSidebarShare * whole.WorkSize.x));
-  const float status = ImGui::GetFrameHeight() + 2.0f;
+  const float status = ImGui::GetFrameHeight() + 2.0f * scale;
   const ImVec2 low = whole.WorkPos;
   const ImVec2 size(whole.WorkSize.x, std::max(1.0f, whole.WorkSize.y - status));
   const bool has_gallery = bench.shows_gallery && size.y > 3.0f * Gallery::height();
@@ -69,13 +70,23 @@ void lay_out(Workbench& bench, Gallery& gallery) {
   }
   area("sidebar", {low.x + size.x - sidebar, low.y}, {sidebar, size.y}, ImGui::GetStyle().WindowPadding,
        [&] { show_sidebar(bench); });
-  area("status", {low.x, low.y + size.y}, {size.x, status}, {10.0f, 3.0f}, [&] { show_status(bench); });
+  area("status", {low.x, low.y + size.y}, {size.x, status}, {10.0f * scale, 3.0f * scale},
+       [&] { show_status(bench); });
   show_help(bench);
   show_prompt(bench);
 }
 
+/// Whether a picture gets finer without anything happening.
+bool is_drawing(const Workbench& bench) {
+  for (std::size_t index = 0; index < pane_count(bench); ++index) {
+    if (bench.seats[index]->pane.is_unfinished()) return true;
+  }
+  return false;
+}
+
 /// What a driving program waits for. "TREE seat internodes draft|fine delay now": a tree is on show, so many
-/// milliseconds after the input that changed it, at so many seconds; "READY": all trees are, and at rest.
+/// milliseconds after the input that changed it, at so many seconds; "PICTURE seat fast|fine triangles
+/// milliseconds": it was drawn anew; "READY": all trees are on show, and at rest.
 class Drive {
  public:
   void tell(Workbench& bench) {
@@ -85,7 +96,14 @@ class Drive {
     for (std::size_t index = 0; index < bench.seats.size(); ++index) {
       const Document& document = bench.seats[index]->document;
       const Product* product = document.product();
-      is_settled = is_settled && (document.is_settled() || !document.error().empty());
+      const Pane& pane = bench.seats[index]->pane;
+      if (product != nullptr && pane.drawn_count() != drawn_[index]) {
+        drawn_[index] = pane.drawn_count();
+        bench.report.say(fmt::format("PICTURE {} {} {} {:.1f}", seat_name(index),
+                                     bench.is_drawn_fast ? "fast" : "fine", product->mesh.triangles.size(),
+                                     1000.0 * pane.last_seconds()));
+      }
+      is_settled = is_settled && !is_drawing(bench) && (document.is_settled() || !document.error().empty());
       if (product == nullptr || product->serial == told_[index]) continue;
       told_[index] = product->serial;
       const double delay =
@@ -106,6 +124,7 @@ class Drive {
 
  private:
   std::array<std::uint64_t, 2> told_{};
+  std::array<std::size_t, 2> drawn_{};
   std::optional<TreeDistances::Values> distances_;
   std::string message_;
   bool was_settled_ = false;
@@ -128,7 +147,7 @@ void run(Workbench& bench) {
     drive.tell(bench);
     const bool is_fresh =
         ImGui::GetFrameCount() < kFirstFrames || Window::now() - bench.window.last_input() < kAfterInput;
-    bench.window.wait(is_fresh ? std::min(kFrame, rest) : rest);
+    bench.window.wait(is_drawing(bench) ? 0.0 : is_fresh ? std::min(kFrame, rest) : rest);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -67,6 +68,7 @@ struct Window::Implementation {
   std::string notice;
   std::vector<std::string> gl_errors;
   bool can_be_lost = false;
+  double units_per_point = 1.0;  // of a plain display
 
   void listen();
   void tell_of_errors();
@@ -143,7 +145,9 @@ Window::Window(const std::string& title, const Options& options)
   ImGui_ImplOpenGL3_Init("#version 330 core");
   float scale = 1.0f;
   glfwGetWindowContentScale(window, &scale, nullptr);
-  implementation_->notice = apply_theme(scale);
+  const double density = pixels_per_unit();
+  implementation_->units_per_point = scale / density;
+  implementation_->notice = apply_theme(implementation_->units_per_point, density);
 }
 
 Window::~Window() {
@@ -246,6 +250,8 @@ void Window::set_title(const std::string& title) {
 
 void Window::size(int& width, int& height) const {
   glfwGetWindowSize(implementation_->window, &width, &height);
+  width = static_cast<int>(std::lround(width / implementation_->units_per_point));
+  height = static_cast<int>(std::lround(height / implementation_->units_per_point));
 }
 
 }  // namespace ramify

@@ -17,7 +17,7 @@ struct KeyPress {
 class Window {
  public:
   struct Options {
-    int width = 1280;  // in the display's own units
+    int width = 1280;  // pixels of a plain display; a fine one has more
     int height = 800;
     bool is_debug = false;  // OpenGL tells of every error
   };
@@ -67,7 +67,7 @@ class Window {
   void set_clipboard(const std::string& text);
   void set_title(const std::string& title);
 
-  /// Width and height in the display's units.
+  /// Width and height, as in Options.
   void size(int& width, int& height) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <new>
 
@@ -21,6 +22,10 @@ constexpr double kNotifyEvery = 0.1;  // seconds
 // Sides of a draft's tubes: round enough to tell thick from thin.
 constexpr int kDraftSides = 3;
 constexpr int kDraftSidesOfTrunk = 8;
+
+// A mesh of more triangles than this has a coarse one beside it, of about so many: they are drawn in a blink.
+constexpr std::size_t kManyTriangles = 600'000;
+constexpr std::size_t kCoarseTriangles = 400'000;
 
 // See surface_of().
 constexpr int kObstacleVoxels = 128;
@@ -72,6 +77,12 @@ void dress(Product& product, const Order& order) {
   product.skeleton = shown_part(product.run->skeleton, order.at);
   const std::uint64_t seed = order.job ? order.job->seed() : 0;
   product.mesh = make_tree_mesh(product.skeleton, looks_of(order), seed, std::move(product.mesh)).mesh;
+  if (!order.is_draft && product.mesh.triangles.size() > kManyTriangles) {
+    Looks looks = looks_of(order);
+    // Each level has half of the leaves, or less of the wood.
+    looks.mesher.lod += static_cast<int>(std::bit_width(product.mesh.triangles.size() / kCoarseTriangles));
+    product.coarse = make_tree_mesh(product.skeleton, looks, seed).mesh;
+  }
   for (const Vec3& position : product.skeleton.position) product.box.include(position);
   for (const Vec3f& position : product.mesh.positions) product.box.include(Vec3(position));
   if (order.job) {

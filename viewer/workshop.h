@@ -43,6 +43,7 @@ struct Product {
   std::uint32_t last_step = 0;           // or level, of the whole run; 0 where there is neither
   Skeleton skeleton;                     // what is shown of it
   Mesh mesh;
+  Mesh coarse;                             // the same with far fewer triangles, where the mesh has very many
   Mesh obstacles;                          // of the job
   Box box;                                 // around the tree, and the obstacles near it
   SkyLight sky;                            // of the mesh; empty for a draft

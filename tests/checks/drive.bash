@@ -2,6 +2,8 @@
 # Whoever sources it has a display of its own, xdotool and import, and sets
 #   program  the path of ramify
 #   work     a folder for files that are in the way afterwards
+# and, for a program that is slower than others, how many times as long to wait:
+patience=${patience-1}
 log=$work/window.log
 export XDG_CONFIG_HOME=$work/config
 
@@ -25,7 +27,7 @@ start() {
 # wait_for PATTERN [LINES]: until such a line comes after the first LINES of the log.
 wait_for() {
   local i
-  for ((i = 0; i < 600; ++i)); do
+  for ((i = 0; i < 600 * patience; ++i)); do
     tail -n "+$((${2:-0} + 1))" "$log" | grep -q -- "^$1" && return
     kill -0 "$process" 2> /dev/null || fail "it ended while '$1' was awaited"
     sleep 0.05
@@ -35,20 +37,26 @@ wait_for() {
 
 lines() { wc -l < "$log"; }
 
-# then_ready COMMAND...: runs it and waits until the trees have answered and rest.
+# then_ready COMMAND...: runs it and waits until the trees have answered and rest, and nothing more is said: they
+# may have come to rest in the middle of it.
 then_ready() {
-  local before
+  local before now=
   before=$(lines)
   "$@"
   wait_for READY "$before"
+  until [[ $now == "$(lines)" && $(grep -E '^(TREE|READY)' "$log" | tail -n 1) == READY ]]; do
+    kill -0 "$process" 2> /dev/null || fail "it ended before its trees were at rest"
+    now=$(lines)
+    sleep "$(awk -v patience="$patience" 'BEGIN { print 0.2 * patience }')"
+  done
 }
 
-# place NAME FRACTION: the point that far from the left of the widget, at half its height, once it is there.
+# place NAME FRACTION [HEIGHT]: the point that far from the left of the widget and from its top, once it is there.
 place() {
   local i
-  for ((i = 0; i < 200; ++i)); do
-    awk -v name="$1" -v part="${2:-0.5}" '
-      $1 == "RECT" && $2 == name { x = $3 + part * ($5 - $3); y = ($4 + $6) / 2; is_there = 1 }
+  for ((i = 0; i < 200 * patience; ++i)); do
+    awk -v name="$1" -v part="${2:-0.5}" -v height="${3:-0.5}" '
+      $1 == "RECT" && $2 == name { x = $3 + part * ($5 - $3); y = $4 + height * ($6 - $4); is_there = 1 }
       $1 == "GONE" && $2 == name { is_there = 0 }
       END { if (!is_there) exit 1; printf "%d %d\n", x, y }' "$log" && return
     sleep 0.05
@@ -91,6 +99,23 @@ drag() {
   for ((step = 1; step <= steps; ++step)); do
     sleep "$pause"
     xdotool mousemove --window "$window" $((x0 + (x1 - x0) * step / steps)) "$y"
+  done
+  sleep 0.12
+  xdotool mouseup 1
+}
+
+# drag_between NAME FROM TO: from one place of a widget to another, each as "FRACTION HEIGHT".
+drag_between() {
+  local x0 y0 x1 y1 step
+  # shellcheck disable=SC2086 # two words
+  read -r x0 y0 < <(place "$1" $2)
+  # shellcheck disable=SC2086
+  read -r x1 y1 < <(place "$1" $3)
+  xdotool mousemove --window "$window" "$x0" "$y0" && sleep 0.12
+  xdotool mousedown 1
+  for ((step = 1; step <= 6; ++step)); do
+    sleep 0.12
+    xdotool mousemove --window "$window" $((x0 + (x1 - x0) * step / 6)) $((y0 + (y1 - y0) * step / 6))
   done
   sleep 0.12
   xdotool mouseup 1
