@@ -147,7 +147,7 @@ void run(Workbench& bench) {
     drive.tell(bench);
     const bool is_fresh =
         ImGui::GetFrameCount() < kFirstFrames || Window::now() - bench.window.last_input() < kAfterInput;
-    bench.window.wait(is_drawing(bench) ? 0.0 : is_fresh ? std::min(kFrame, rest) : rest);
+    wait_for_change(bench, is_drawing(bench) ? 0.0 : is_fresh ? std::min(kFrame, rest) : rest);
   }
 }
 

@@ -166,12 +166,15 @@ void Window::close() {
   glfwSetWindowShouldClose(implementation_->window, GLFW_TRUE);
 }
 
-void Window::wait(double seconds) {
+bool Window::wait(double seconds) {
+  constexpr double kEarly = 0.002;  // seconds: more than clocks are off
+  const double start = now();
   if (seconds > 0.0) {
     glfwWaitEventsTimeout(seconds);
   } else {
     glfwPollEvents();
   }
+  return now() < start + seconds - kEarly || last_input() >= start;
 }
 
 void Window::wake() {

@@ -31,8 +31,9 @@ class Window {
   bool wants_to_close() const;
   void close();
 
-  /// Sleeps until something happens, wake() is called or so many seconds are over; 0 does not sleep.
-  void wait(double seconds);
+  /// Sleeps until something happens, wake() is called or so many seconds are over; 0 does not sleep. Whether
+  /// something ended it before its time.
+  bool wait(double seconds);
 
   /// From any thread: ends a wait().
   static void wake();

@@ -17,9 +17,10 @@
 namespace ramify {
 namespace {
 
-constexpr double kRest = 0.3;        // seconds after which what moved counts as at rest
-constexpr double kWatchEvery = 0.5;  // seconds
-constexpr double kPlayEvery = 0.35;  // seconds a step
+constexpr double kRest = 0.3;         // seconds after which what moved counts as at rest
+constexpr double kWatchEvery = 0.5;   // seconds
+constexpr double kFrameEvery = 20.0;  // seconds, though nothing happens: whatever covered the window is gone
+constexpr double kPlayEvery = 0.35;   // seconds a step
 
 std::optional<FileWatch> watch_of(const Opened& opened) {
   std::error_code error;
@@ -35,14 +36,21 @@ Panel panel_of(const Opened& opened) {
   return panel;
 }
 
-/// Reads a watched config again if its file changed.
-void look_at_file(Workbench& bench, Seat& seat) {
-  if (!seat.watch) return;
+/// When a watched config's file changed, if it did since it was read.
+std::optional<std::filesystem::file_time_type> change_of(const Seat& seat) {
+  if (!seat.watch) return std::nullopt;
   std::error_code error;
   const auto changed = std::filesystem::last_write_time(seat.watch->path, error);
   // Editors take a file away before they put the new one there.
-  if (error || changed == seat.watch->changed) return;
-  seat.watch->changed = changed;
+  if (error || changed == seat.watch->changed) return std::nullopt;
+  return changed;
+}
+
+/// Reads a watched config again if its file changed.
+void look_at_file(Workbench& bench, Seat& seat) {
+  const auto changed = change_of(seat);
+  if (!changed) return;
+  seat.watch->changed = *changed;
   try {
     Opened opened = bench.services.open(seat.watch->path.string());
     if (!opened.job) return;
@@ -144,13 +152,12 @@ std::vector<Vec3> points_in_sight(const Workbench& bench, const Seat& seat) {
 }
 
 double tend(Workbench& bench) {
-  double wait = 2.0;
+  double wait = kFrameEvery;
   const double now = Window::now();
   for (const auto& seat : bench.seats) {
     look_at_file(bench, *seat);
     play(bench, *seat);
     seat->document.update(now, !bench.is_moving());
-    if (seat->watch) wait = std::min(wait, kWatchEvery);
     if (seat->next_step_at) wait = std::min(wait, *seat->next_step_at - now);
     if (const auto due = seat->document.due_in(now)) wait = std::min(wait, *due);
   }
@@ -158,6 +165,18 @@ double tend(Workbench& bench) {
   if (bench.writing.valid() || bench.distances.is_busy()) wait = std::min(wait, 0.1);
   if (bench.is_moving()) wait = std::min(wait, bench.last_motion + kRest - now);
   return std::max(wait, 0.001);
+}
+
+void wait_for_change(Workbench& bench, double seconds) {
+  const auto has_changed = [&] {
+    return std::any_of(bench.seats.begin(), bench.seats.end(),
+                       [](const auto& seat) { return change_of(*seat); });
+  };
+  const double end = Window::now() + seconds;
+  do {
+    const double left = std::max(0.0, end - Window::now());
+    if (bench.window.wait(std::min(left, kWatchEvery)) || has_changed()) return;
+  } while (Window::now() < end);
 }
 
 void take_edit(Workbench& bench, const WidgetOutcome& outcome, const Job& before) {

@@ -99,6 +99,10 @@ std::vector<Vec3> points_in_sight(const Workbench& bench, const Seat& seat);
 /// of what plays. Returns the seconds until there may be more to do.
 double tend(Workbench& bench);
 
+/// Sleeps so many seconds, or until something happens in the window or a watched config changes on disk:
+/// until then the picture is as it was.
+void wait_for_change(Workbench& bench, double seconds);
+
 /// Parameters of the active tree were changed by hand.
 void take_edit(Workbench& bench, const WidgetOutcome& outcome, const Job& before);
 

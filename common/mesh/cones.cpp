@@ -1,6 +1,7 @@
 #include "common/mesh/cones.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "common/base/parallel.h"
@@ -23,6 +24,7 @@ struct NodePart {
   double base_radius = 0.0;  // of the cone
   bool has_cone = false;
   bool has_sphere = false;
+  bool is_foot = false;            // of a tree: it stands flat on the ground
   std::uint32_t sides = 0;         // of the cone
   std::uint32_t sphere_sides = 0;  // as many, or twice where the axis bends
   std::size_t first_vertex = 0;
@@ -76,6 +78,7 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     part.along = kUp;
     if (skeleton.is_root(node)) {
       part.side = any_perpendicular(kUp);
+      part.is_foot = true;
       continue;
     }
     const std::uint32_t parent = skeleton.parent[node];
@@ -85,6 +88,7 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     part.along = normalized_or(skeleton.along(node), parts[parent].along, thinnest);
     part.side = transported(parts[parent].side, parts[parent].along, part.along);
     NodePart& below = parts[parent];
+    if (part.along.y < 0.0) below.is_foot = false;  // it has roots
     if (goes_on && tolerance <= 0.0 && below.sides >= kSidesRounded &&
         glm::dot(below.along, part.along) < kStraight)
       below.sphere_sides = 2 * below.sides;
@@ -104,14 +108,18 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
 /// Writes the parts of one node into their place in the mesh.
 class PartBuilder {
  public:
-  PartBuilder(const Skeleton& skeleton, std::size_t node, const NodePart& part, double end_radius, Mesh& mesh)
+  PartBuilder(const Skeleton& skeleton, std::size_t node, const std::vector<NodePart>& parts,
+              double end_radius, Mesh& mesh)
       : skeleton_(skeleton),
         node_(static_cast<std::uint32_t>(node)),
-        part_(part),
+        part_(parts[node]),
         end_radius_(end_radius),
         mesh_(mesh),
-        vertex_(part.first_vertex),
-        triangle_(part.first_triangle) {}
+        vertex_(part_.first_vertex),
+        triangle_(part_.first_triangle) {
+    const std::size_t below = skeleton.is_root(node) ? node : skeleton.parent[node];
+    if (parts[below].is_foot) ground_ = skeleton.position[below].y;
+  }
 
   void build() {
     if (part_.has_cone) add_cone();
@@ -125,7 +133,9 @@ class PartBuilder {
   }
 
   void add_vertex(const Vec3& center, double radius, const Vec3& normal, double u, double v) {
-    mesh_.positions[vertex_] = Vec3f(center + radius * normal);
+    Vec3 position = center + radius * normal;
+    position.y = std::max(position.y, ground_);
+    mesh_.positions[vertex_] = Vec3f(position);
     mesh_.normals[vertex_] = glm::normalize(Vec3f(normal));
     mesh_.uvs[vertex_] = {static_cast<float>(u), static_cast<float>(v)};
     mesh_.internodes[vertex_++] = node_;
@@ -198,7 +208,8 @@ class PartBuilder {
   std::uint32_t node_;
   const NodePart& part_;
   double end_radius_;
-  std::uint32_t sides_ = 0;  // of what is being added
+  std::uint32_t sides_ = 0;                                   // of what is being added
+  double ground_ = -std::numeric_limits<double>::infinity();  // nothing goes lower
   Mesh& mesh_;
   std::size_t vertex_;
   std::size_t triangle_;
@@ -220,7 +231,7 @@ Mesh cones_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   const double thinnest = thinnest_radius(skeleton);
   parallel_for(plan.parts.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t node = begin; node < end; ++node) {
-      PartBuilder(skeleton, node, plan.parts[node], radius(skeleton, node, thinnest), mesh).build();
+      PartBuilder(skeleton, node, plan.parts, radius(skeleton, node, thinnest), mesh).build();
     }
   });
   return mesh;

@@ -225,7 +225,7 @@ TEST_CASE("mesher: cones are closed, face outwards and fill what the cones and s
     lowest = std::min(lowest, p.y);
     widest = std::max(widest, std::hypot(p.x, p.z));
   }
-  CHECK(lowest == Approx(-0.1).margin(1e-5));
+  CHECK(lowest == 0.0f);  // it stands on the ground
   CHECK(widest == Approx(0.1).margin(1e-5));
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Mesh random = build_mesh(random_tree(seed, 200), {.method = MeshMethod::cones});
@@ -236,6 +236,24 @@ TEST_CASE("mesher: cones are closed, face outwards and fill what the cones and s
       CHECK(glm::dot(sum, area_vector(random, t)) > 0);
     }
   }
+}
+
+TEST_CASE("mesher: cones stand flat on the ground, but for a tree with roots") {
+  const MesherOptions cones{.method = MeshMethod::cones};
+  const auto lowest = [](const Mesh& mesh) {
+    const auto is_lower = [](const Vec3f& a, const Vec3f& b) { return a.y < b.y; };
+    return std::min_element(mesh.positions.begin(), mesh.positions.end(), is_lower)->y;
+  };
+  Skeleton leaning;
+  add_node(leaning, {0, 0, 0}, kNoParent, 0.4);
+  add_node(leaning, {0.5, 0.6, 0}, 0, 0.4);
+  assign_axes(leaning);
+  const Mesh mesh = build_mesh(leaning, cones);
+  check_sound(mesh);
+  CHECK(lowest(mesh) == 0.0f);
+  add_node(leaning, {0, -1, 0}, 0, 0.2);
+  assign_axes(leaning);
+  CHECK(lowest(build_mesh(leaning, cones)) < -0.9f);
 }
 
 TEST_CASE("mesher: each level of detail has at most a third of the triangles, a budget is kept") {

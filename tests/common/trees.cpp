@@ -4,7 +4,6 @@
 #include "common/skeleton/passes.h"
 
 namespace ramify::test {
-namespace {
 
 void add_node(Skeleton& s, const Vec3& position, std::uint32_t parent, double diameter) {
   s.position.push_back(position);
@@ -12,8 +11,6 @@ void add_node(Skeleton& s, const Vec3& position, std::uint32_t parent, double di
   s.diameter.push_back(diameter);
   s.kind.push_back(Kind::stem);
 }
-
-}  // namespace
 
 Skeleton pole(int internodes) {
   Skeleton s;

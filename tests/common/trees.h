@@ -5,6 +5,9 @@
 
 namespace ramify::test {
 
+/// Adds a node of living wood, a root if `parent` is kNoParent; assign_axes() when all are there.
+void add_node(Skeleton& tree, const Vec3& position, std::uint32_t parent, double diameter);
+
 /// A root at the origin and `internodes` of 1 m straight up, 0.2 m thick at the base, narrowing to 0.1 m.
 Skeleton pole(int internodes);
 

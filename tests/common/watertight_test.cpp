@@ -38,20 +38,13 @@ double wood_volume(const Skeleton& s) {
   return sum;
 }
 
-void add_internode(Skeleton& s, std::uint32_t parent, const Vec3& end, double diameter) {
-  s.position.push_back(end);
-  s.parent.push_back(parent);
-  s.diameter.push_back(diameter);
-  s.kind.push_back(Kind::stem);
-}
-
 /// A trunk of two internodes, 0.2 m thick, with a lateral half as thick.
 Skeleton y_fork() {
   Skeleton s;
-  add_internode(s, kNoParent, {0, 0, 0}, 0.2);
-  add_internode(s, 0, {0, 1, 0}, 0.2);
-  add_internode(s, 1, {0, 2, 0}, 0.2);
-  add_internode(s, 1, {1, 2, 0}, 0.1);
+  add_node(s, {0, 0, 0}, kNoParent, 0.2);
+  add_node(s, {0, 1, 0}, 0, 0.2);
+  add_node(s, {0, 2, 0}, 1, 0.2);
+  add_node(s, {1, 2, 0}, 1, 0.1);
   assign_axes(s);
   return s;
 }
@@ -125,9 +118,9 @@ TEST_CASE("watertight: a fork is one piece, and its blend adds little") {
 
 TEST_CASE("watertight: internodes without length and jumps of width change nothing of that") {
   Skeleton tree = y_fork();
-  add_internode(tree, 3, {1, 2, 0}, 0.1);       // no length
-  add_internode(tree, 4, {1.5, 2.2, 0}, 0.3);   // thick after thin
-  add_internode(tree, 5, {2.5, 2.2, 0}, 0.05);  // thin after thick
+  add_node(tree, {1, 2, 0}, 3, 0.1);       // no length
+  add_node(tree, {1.5, 2.2, 0}, 4, 0.3);   // thick after thin
+  add_node(tree, {2.5, 2.2, 0}, 5, 0.05);  // thin after thick
   assign_axes(tree);
   const Mesh mesh = watertight(tree, {.voxel_size = 0.015});
   check_closed(mesh, 1);
@@ -170,7 +163,7 @@ TEST_CASE("watertight: the volume is the wood's where laterals are few and thin"
   // Cones of a lateral overlap its parent's: what is counted twice is a thousandth here.
   Skeleton tree = pole(10);
   for (std::uint32_t node = 2; node < 10; node += 2) {
-    add_internode(tree, node, tree.position[node] + Vec3(node % 4 == 0 ? 1.0 : -1.0, 0.7, 0), 0.04);
+    add_node(tree, tree.position[node] + Vec3(node % 4 == 0 ? 1.0 : -1.0, 0.7, 0), node, 0.04);
   }
   assign_axes(tree);
   const Mesh mesh = watertight(tree, {.voxel_size = 0.01});
@@ -180,8 +173,8 @@ TEST_CASE("watertight: the volume is the wood's where laterals are few and thin"
 
 TEST_CASE("watertight: twigs thinner than two voxels are told and left out, or closed tubes if asked") {
   Skeleton tree = pole(2);
-  add_internode(tree, 1, {1, 2, 0}, 0.01);
-  add_internode(tree, 3, {2, 2, 0}, 0.1);  // thick, but on the thin one
+  add_node(tree, {1, 2, 0}, 1, 0.01);
+  add_node(tree, {2, 2, 0}, 3, 0.1);  // thick, but on the thin one
   assign_axes(tree);
   const Mesh without = watertight(tree, {.voxel_size = 0.02});
   check_closed(without, 1);
@@ -203,7 +196,7 @@ TEST_CASE("watertight: the size chosen resolves the thinnest twig, or is as fine
   const WatertightPlan fine = plan_watertight(y_fork(), {});
   CHECK(fine.voxel_size == Approx(0.1 / 3));
   Skeleton tree = y_fork();
-  add_internode(tree, 1, {0, 2, 1}, 0.0005);
+  add_node(tree, {0, 2, 1}, 1, 0.0005);
   assign_axes(tree);
   const WatertightPlan limited = plan_watertight(tree, {});
   CHECK(limited.voxel_size > 0.0005 / 3);
@@ -261,8 +254,8 @@ TEST_CASE("watertight: with the size chosen presets whose twigs are resolved kee
 
 TEST_CASE("watertight: chords take nothing away from a thin pole's volume") {
   Skeleton tree;
-  add_internode(tree, kNoParent, {0, 0, 0}, 0.1);
-  add_internode(tree, 0, {0.3, 2, 0.2}, 0.1);
+  add_node(tree, {0, 0, 0}, kNoParent, 0.1);
+  add_node(tree, {0.3, 2, 0.2}, 0, 0.1);
   assign_axes(tree);
   const double expected = wood_volume(tree) + 2.0 / 3.0 * std::numbers::pi * std::pow(0.05, 3);
   for (const double adaptivity : {0.0, 0.1, 0.3}) {
@@ -275,10 +268,10 @@ TEST_CASE("watertight: chords take nothing away from a thin pole's volume") {
 TEST_CASE("watertight: a blend that reaches farther than its cones belongs to one of them") {
   // Two limbs at a right angle, thick in voxels: what fills their crotch is leaves away from both.
   Skeleton tree;
-  add_internode(tree, kNoParent, {0, 0, 0}, 0.4);
-  add_internode(tree, 0, {0, 1, 0}, 0.4);
-  add_internode(tree, 1, {0, 2, 0}, 0.4);
-  add_internode(tree, 1, {1, 1.2, 0}, 0.4);
+  add_node(tree, {0, 0, 0}, kNoParent, 0.4);
+  add_node(tree, {0, 1, 0}, 0, 0.4);
+  add_node(tree, {0, 2, 0}, 1, 0.4);
+  add_node(tree, {1, 1.2, 0}, 1, 0.4);
   assign_axes(tree);
   const Mesh mesh = watertight(tree, {.voxel_size = 0.005, .blend = 2.0});
   CHECK(std::none_of(mesh.internodes.begin(), mesh.internodes.end(), [](auto node) { return node == 0; }));
@@ -303,9 +296,9 @@ TEST_CASE("watertight: no triangle stretches the texture across where its ends m
 
 TEST_CASE("watertight: the texture runs on evenly along thick wood that bends in short internodes") {
   Skeleton tree;
-  add_internode(tree, kNoParent, {0, 0, 0}, 0.5);
+  add_node(tree, {0, 0, 0}, kNoParent, 0.5);
   for (std::uint32_t i = 1; i <= 8; ++i)
-    add_internode(tree, i - 1, {i % 2 == 0 ? 0.1 : 0.0, 0.2 * i, i % 3 == 0 ? 0.1 : 0.0}, 0.5);
+    add_node(tree, {i % 2 == 0 ? 0.1 : 0.0, 0.2 * i, i % 3 == 0 ? 0.1 : 0.0}, i - 1, 0.5);
   assign_axes(tree);
   const Mesh mesh = watertight(tree, {.voxel_size = 0.03});
   // v is metres by the girth of half a metre's width; its slope may grow on the inner side of bends.
@@ -323,9 +316,9 @@ TEST_CASE("watertight: the texture runs on evenly along thick wood that bends in
 
 TEST_CASE("watertight: a trunk that leans is cut off level with the ground, nothing bulges below") {
   Skeleton tree;
-  add_internode(tree, kNoParent, {0, 0, 0}, 0.4);
-  add_internode(tree, 0, {0.05, 0.1, 0}, 0.4);
-  add_internode(tree, 1, {0.5, 1, 0}, 0.4);
+  add_node(tree, {0, 0, 0}, kNoParent, 0.4);
+  add_node(tree, {0.05, 0.1, 0}, 0, 0.4);
+  add_node(tree, {0.5, 1, 0}, 1, 0.4);
   assign_axes(tree);
   const Mesh mesh = watertight(tree, {.voxel_size = 0.02});
   check_closed(mesh, 1);
@@ -339,10 +332,10 @@ TEST_CASE("watertight: a trunk that leans is cut off level with the ground, noth
 
 TEST_CASE("watertight: the bark of two axes meets where both are equally near") {
   Skeleton tree;
-  add_internode(tree, kNoParent, {0, 0, 0}, 0.4);
-  add_internode(tree, 0, {0, 1, 0}, 0.4);
-  add_internode(tree, 1, {0, 2, 0}, 0.4);
-  add_internode(tree, 1, {1, 1.8, 0}, 0.3);
+  add_node(tree, {0, 0, 0}, kNoParent, 0.4);
+  add_node(tree, {0, 1, 0}, 0, 0.4);
+  add_node(tree, {0, 2, 0}, 1, 0.4);
+  add_node(tree, {1, 1.8, 0}, 1, 0.3);
   assign_axes(tree);
   const double voxel_size = 0.02;
   const Mesh mesh = watertight(tree, {.voxel_size = voxel_size});
