@@ -21,6 +21,11 @@ namespace {
 constexpr int kPictureWidth = 92;
 constexpr int kPictureHeight = 104;
 
+/// Of two lines below a picture.
+float name_height() {
+  return ImGui::GetStyle().ItemSpacing.y + 2.0f * ImGui::GetTextLineHeight();
+}
+
 /// On two lines where it is wider than a picture; broken after a hyphen.
 std::string two_lines(const std::string& name, float width) {
   if (ImGui::CalcTextSize(name.c_str()).x <= width) return name;
@@ -47,7 +52,9 @@ GlTexture texture_of(const Image& image) {
 Gallery::Gallery() : workshop_(Window::wake) {}
 
 float Gallery::height() {
-  return ui_scale() * (static_cast<float>(kPictureHeight) + 30.0f) + 2.0f * ImGui::GetTextLineHeight();
+  constexpr float kPadding = 16.0f;
+  return ui_scale() * (static_cast<float>(kPictureHeight) + kPadding) + name_height() +
+         ImGui::GetStyle().ScrollbarSize;
 }
 
 void Gallery::take() {
@@ -110,7 +117,7 @@ void Gallery::show(Workbench& bench, bool is_busy) {
                         static_cast<int>(about.size()), about.data());
     }
     if (is_visible && wanted_.empty() && found == thumbnails_.end() && name != making_) wanted_ = name;
-    ImGui::PushClipRect(low, {high.x, high.y + 2.0f * ImGui::GetTextLineHeight()}, true);
+    ImGui::PushClipRect(low, {high.x, high.y + name_height()}, true);
     ImGui::TextDisabled("%s", two_lines(name, size.x).c_str());
     ImGui::PopClipRect();
     ImGui::EndGroup();

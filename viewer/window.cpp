@@ -13,6 +13,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "common/base/errors.h"
@@ -42,6 +43,15 @@ void APIENTRY note_gl_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLe
   if (type != GL_DEBUG_TYPE_ERROR) return;
   auto& lines = *static_cast<std::vector<std::string>*>(const_cast<void*>(errors));
   lines.emplace_back(text, length >= 0 ? static_cast<std::size_t>(length) : std::string(text).size());
+}
+
+/// Whether a text field takes it: what writes or moves, and Ctrl with the letters that edit.
+bool belongs_to_text(const KeyPress& press) {
+  const bool is_character = press.key.size() == 1;
+  if (press.with_control && is_character)
+    return std::string_view("acvxyz").find(press.key) != std::string_view::npos;
+  const bool is_function_key = !is_character && press.key[0] == 'F';
+  return !is_function_key;
 }
 
 std::string key_name(int key, int scancode) {
@@ -207,7 +217,7 @@ void Window::end_frame() {
 
 std::vector<KeyPress> Window::take_keys() {
   std::vector<KeyPress> keys = std::exchange(implementation_->keys, {});
-  if (ImGui::GetIO().WantTextInput) keys.clear();
+  if (ImGui::GetIO().WantTextInput) std::erase_if(keys, belongs_to_text);
   return keys;
 }
 

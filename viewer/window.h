@@ -43,7 +43,7 @@ class Window {
   void begin_frame();
   void end_frame();
 
-  /// What was pressed or dropped since the last call; keys only while no text is being written.
+  /// What was pressed or dropped since the last call; while text is being written, no keys that it takes.
   std::vector<KeyPress> take_keys();
   std::vector<std::string> take_dropped();
 
