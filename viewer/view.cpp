@@ -145,6 +145,7 @@ void run(Workbench& bench) {
     bench.window.end_frame();
     bench.left.clear();
     drive.tell(bench);
+    if (bench.window.wants_to_close()) return;  // by a key or the menu: there is nothing to wait for
     const bool is_fresh =
         ImGui::GetFrameCount() < kFirstFrames || Window::now() - bench.window.last_input() < kAfterInput;
     wait_for_change(bench, is_drawing(bench) ? 0.0 : is_fresh ? std::min(kFrame, rest) : rest);

@@ -156,9 +156,13 @@ photo() {
 }
 
 quit() {
-  # It may be gone before the key is let go.
-  xdotool key --window "$window" ctrl+q 2> /dev/null || true
-  local code=0
+  local i code=0
+  # A busy window may miss the key, and be gone before it is let go.
+  for ((i = 0; i < 100 * patience; ++i)); do
+    ((i % 20)) || xdotool key --window "$window" ctrl+q 2> /dev/null || true
+    kill -0 "$process" 2> /dev/null || break
+    sleep 0.25
+  done
   wait "$process" || code=$?
   [[ $code == 0 && ! -s $work/errors ]] || fail "it ended with $code: $(cat "$work/errors")"
 }
