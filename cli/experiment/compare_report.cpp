@@ -51,12 +51,19 @@ std::string value_number(double value) {
   return std::abs(value) < 1000.0 ? fmt::format("{:.4g}", value) : short_number(value);
 }
 
+/// Two digits, or a whole number.
+std::string deviation_number(double value) {
+  return value < 99.5 ? fmt::format("{:.2g}", value) : short_number(std::round(value));
+}
+
 std::string value_text(const MetricComparison& metric, std::size_t subject) {
   if (!metric.mean[subject]) return "-";
   const bool is_whole = metric.info->is_count && !metric.deviation[subject];
   const std::string mean =
       is_whole ? metric_text(*metric.info, metric.mean[subject]) : value_number(*metric.mean[subject]);
-  return metric.deviation[subject] ? fmt::format("{} &#177; {:.2g}", mean, *metric.deviation[subject]) : mean;
+  return metric.deviation[subject]
+             ? fmt::format("{} &#177; {}", mean, deviation_number(*metric.deviation[subject]))
+             : mean;
 }
 
 Section metrics_section(const CompareResults& results) {
