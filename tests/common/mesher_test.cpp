@@ -9,10 +9,9 @@
 #include "common/mesh/smooth.h"
 #include "common/mesh/tree_mesh.h"
 #include "common/skeleton/passes.h"
-#include "growth/engine.h"
-#include "pathplan/engine.h"
 #include "tests/catch.h"
 #include "tests/common/trees.h"
+#include "tests/engines.h"
 
 using namespace ramify;
 using namespace ramify::test;
@@ -135,9 +134,7 @@ TEST_CASE("mesher: the meshes of all trees are sound and face outwards") {
 }
 
 TEST_CASE("mesher: no triangle faces against its corners' normals, in narrow forks and tight bends neither") {
-  EngineRegistry registry;
-  growth::register_engine(registry);
-  pathplan::register_engine(registry);
+  const EngineRegistry& registry = test::both_engines();
   std::vector<std::pair<std::string, Skeleton>> trees;
   trees.emplace_back("slim", slim_tree(6));
   for (const char* preset : {"s4-fig6", "decurrent", "weeping", "columnar", "xm12-a", "xm12-b", "xm12-fig5",

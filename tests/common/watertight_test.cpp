@@ -11,10 +11,10 @@
 #include "common/mesh/wood_field.h"
 #include "common/skeleton/passes.h"
 #include "growth/engine.h"
-#include "pathplan/engine.h"
 #include "tests/catch.h"
 #include "tests/common/manifolds.h"
 #include "tests/common/trees.h"
+#include "tests/engines.h"
 
 using namespace ramify;
 using namespace ramify::test;
@@ -144,9 +144,7 @@ TEST_CASE("watertight: trees whose branches cross at random are closed all the s
 }
 
 TEST_CASE("watertight: presets of both engines at a coarse size") {
-  EngineRegistry registry;
-  growth::register_engine(registry);
-  pathplan::register_engine(registry);
+  const EngineRegistry& registry = test::both_engines();
   const std::vector<std::pair<std::string, double>> presets = {{"s4-fig6", 0.006},
                                                                {"s4-improved", 0.012},
                                                                {"columnar", 0.012},

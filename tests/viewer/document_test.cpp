@@ -4,27 +4,16 @@
 #include <thread>
 
 #include "common/config/toml_reader.h"
-#include "growth/engine.h"
-#include "pathplan/engine.h"
 #include "tests/catch.h"
+#include "tests/engines.h"
 
 using namespace ramify;
 using namespace std::chrono_literals;
 
 namespace {
 
-const EngineRegistry& registry() {
-  static const EngineRegistry all = [] {
-    EngineRegistry engines;
-    growth::register_engine(engines);
-    pathplan::register_engine(engines);
-    return engines;
-  }();
-  return all;
-}
-
 Opened preset(const std::string& name) {
-  return {.input = name, .job = load_job(registry(), name), .tree = {}, .mesh = {}};
+  return {.input = name, .job = load_job(test::both_engines(), name), .tree = {}, .mesh = {}};
 }
 
 void set(Document& document, const std::string& key, const std::string& value) {
@@ -99,11 +88,11 @@ TEST_CASE("document: each engine keeps its parameters while the other is at work
   set(document, "growth.kappa", "0.25");
   document.edited(0.0);
   document.settle();
-  document.switch_engine(*registry().find("pathplan"), 0.0);
+  document.switch_engine(*test::both_engines().find("pathplan"), 0.0);
   CHECK(document.job().engine->name == "pathplan");
   CHECK(generate_command(document) ==
         "ramify params pathplan --toml > pathplan.toml && ramify generate pathplan.toml -o tree.glb");
-  document.switch_engine(*registry().find("growth"), 0.0);
+  document.switch_engine(*test::both_engines().find("growth"), 0.0);
   CHECK(generate_command(document) == "ramify generate s4-fig6 --set growth.kappa=0.25 -o tree.glb");
   document.undo(0.0);
   CHECK(document.job().engine->name == "pathplan");

@@ -2,28 +2,17 @@
 
 #include <algorithm>
 
-#include "growth/engine.h"
-#include "pathplan/engine.h"
 #include "tests/catch.h"
+#include "tests/engines.h"
 #include "viewer/nearness.h"
 
 using namespace ramify;
 
 namespace {
 
-const EngineRegistry& registry() {
-  static const EngineRegistry all = [] {
-    EngineRegistry engines;
-    growth::register_engine(engines);
-    pathplan::register_engine(engines);
-    return engines;
-  }();
-  return all;
-}
-
 Product product_of(const std::string& preset) {
   Product product;
-  product.job = std::make_shared<const Job>(load_job(registry(), preset));
+  product.job = std::make_shared<const Job>(load_job(test::both_engines(), preset));
   RunContext context;
   context.layers = product.job->engine->layers(product.job->parameters.get());
   product.run = std::make_shared<const RunResult>(product.job->run(context));
@@ -86,7 +75,7 @@ TEST_CASE("veils: one a volume that the run uses, its surface where the volume i
 
 TEST_CASE("overlay: volumes and obstacles can be shown where a run uses some") {
   const auto has = [](const std::string& preset, const char* name) {
-    const std::vector<std::string> names = overlay_names(load_job(registry(), preset));
+    const std::vector<std::string> names = overlay_names(load_job(test::both_engines(), preset));
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   CHECK(has("xm12-fig5", kVolumes));
