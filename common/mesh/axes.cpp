@@ -1,6 +1,8 @@
 #include "common/mesh/axes.h"
 
 #include <algorithm>
+#include <limits>
+#include <mutex>
 
 #include "common/base/parallel.h"
 #include "common/mesh/wood.h"
@@ -10,75 +12,131 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-/// Where a node stands: on which axis, and after how many of its points. Roots stand on their trunks.
-struct Place {
-  std::uint32_t axis = kNoParent;
-  std::uint32_t rank = 0;
+/// Which axis each node belongs to and where on it: roots stand at the first point of their trunks.
+struct Places {
+  BulkVector<std::uint32_t> axis;  // of each node
+  BulkVector<std::uint32_t> rank;  // points of the axis before the node
+
+  BulkVector<std::uint32_t> base;   // of each axis: the node that it grows from
+  BulkVector<std::uint32_t> count;  // of each axis, points
+
+  std::vector<std::uint32_t> at_roots;  // axes
 };
 
-/// Lists the axes, `base` being a node as yet and `first` unset. Returns the places of all nodes.
-BulkVector<Place> list_axes(const Skeleton& skeleton, BulkVector<Axis>& axes) {
-  const std::size_t roots = skeleton.root_count();
-  BulkVector<Place> places(roots);
-  places.resize(skeleton.node_count());
-  axes.reserve(skeleton.internode_count());
-  for (std::size_t node = roots; node < places.size(); ++node) {
+/// Numbers axes by their first nodes. Without a branch on whether a node founds one, which nobody foresees.
+Places find_places(const Skeleton& skeleton) {
+  const std::size_t nodes = skeleton.node_count();
+  const auto roots = static_cast<std::uint32_t>(skeleton.root_count());
+  Places places;
+  places.axis.resize(nodes);
+  places.rank.resize(nodes);
+  places.base.resize(nodes);  // one more than there are axes is written to
+  places.count.resize(nodes);
+  std::fill_n(places.axis.begin(), roots, kNoParent);
+  std::fill_n(places.rank.begin(), roots, 0);
+  std::uint32_t axes = 0;
+  for (std::size_t node = roots; node < nodes; ++node) {
     const std::uint32_t parent = skeleton.parent[node];
     const bool is_of_parents = skeleton.axis[node] == skeleton.axis[parent];
-    if (is_of_parents && parent >= roots) {
-      places[node] = {places[parent].axis, places[parent].rank + 1};
-      axes[places[node].axis].count = places[node].rank + 1;
-      continue;
+    if (parent < roots) {
+      places.at_roots.push_back(axes);
+      if (is_of_parents) places.axis[parent] = axes;
     }
-    places[node] = {static_cast<std::uint32_t>(axes.size()), 1};
-    if (is_of_parents) places[parent].axis = places[node].axis;
-    axes.push_back({.count = 2, .base = parent});
+    const bool goes_on = is_of_parents && parent >= roots;
+    places.base[axes] = parent;
+    places.count[axes] = 1;
+    const std::uint32_t axis = goes_on ? places.axis[parent] : axes;
+    axes += goes_on ? 0 : 1;
+    places.axis[node] = axis;
+    places.rank[node] = places.count[axis]++;
   }
+  places.base.resize(axes);
+  places.count.resize(axes);
   return places;
+}
+
+/// What is met on the way along all nodes: a way of its own would read them once more.
+struct Extremes {
+  Vec3 coordinate{0.0};                                    // greatest, without signs, metres
+  double least = std::numeric_limits<double>::infinity();  // diameter, metres
+  double greatest = 0.0;
+
+  void include(const Vec3& position, double diameter) {
+    coordinate = glm::max(coordinate, glm::abs(position));
+    least = std::min(least, diameter);
+    greatest = std::max(greatest, diameter);
+  }
+  void include(const Extremes& other) {
+    coordinate = glm::max(coordinate, other.coordinate);
+    least = std::min(least, other.least);
+    greatest = std::max(greatest, other.greatest);
+  }
+};
+
+AxisPoint point_at(const Skeleton& skeleton, std::size_t node) {
+  return {.position = Vec3f(skeleton.position[node]),
+          .radius = 0.5f * static_cast<float>(skeleton.diameter[node]),
+          .node = static_cast<std::uint32_t>(node)};
+}
+
+/// Writes the points of all internodes. `first` has one an axis.
+Extremes lay_points(const Skeleton& skeleton, const Places& places, const BulkVector<std::uint32_t>& first,
+                    BulkVector<AxisPoint>& points) {
+  Extremes all;
+  const std::size_t roots = skeleton.root_count();
+  for (std::size_t root = 0; root < roots; ++root)
+    all.include(skeleton.position[root], skeleton.diameter[root]);
+  std::mutex of_all;
+  parallel_for(skeleton.internode_count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Extremes here;
+    for (std::size_t node = roots + begin; node < roots + end; ++node) {
+      here.include(skeleton.position[node], skeleton.diameter[node]);
+      points[first[places.axis[node]] + places.rank[node]] = point_at(skeleton, node);
+    }
+    const std::lock_guard lock(of_all);
+    all.include(here);
+  });
+  return all;
 }
 
 }  // namespace
 
 Axes find_axes(const Skeleton& skeleton) {
+  Places places = find_places(skeleton);
   Axes axes;
-  axes.thinnest = static_cast<float>(thinnest_radius(skeleton));
-  const auto radius = [&](double diameter) {
-    return std::max(0.5f * static_cast<float>(diameter), axes.thinnest);
-  };
-  axes.thickest = radius(*std::max_element(skeleton.diameter.begin(), skeleton.diameter.end()));
-  const BulkVector<Place> places = list_axes(skeleton, axes.list);
+  axes.at_roots = std::move(places.at_roots);
+  axes.list.resize(places.count.size());
+  BulkVector<std::uint32_t> first(places.count.size());
   std::uint32_t count = 0;
-  for (Axis& axis : axes.list) {
-    axis.first = count;
-    count += axis.count;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    first[i] = count;
+    count += places.count[i];
   }
   axes.points.resize(count);
-  const auto point_at = [&](std::size_t node) {
-    return AxisPoint{.position = Vec3f(skeleton.position[node]),
-                     .radius = radius(skeleton.diameter[node]),
-                     .node = static_cast<std::uint32_t>(node)};
+  const Extremes extremes = lay_points(skeleton, places, first, axes.points);
+  const Vec3& farthest = extremes.coordinate;
+  axes.thinnest = static_cast<float>(thinnest_radius(std::max({farthest.x, farthest.y, farthest.z})));
+  const auto widened = [&](AxisPoint point) {
+    point.radius = std::max(point.radius, axes.thinnest);
+    return point;
   };
-  const std::size_t roots = skeleton.root_count();
-  parallel_for(skeleton.internode_count(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t node = roots + begin; node < roots + end; ++node) {
-      const auto [axis, rank] = places[node];
-      axes.points[axes.list[axis].first + rank] = point_at(node);
-    }
-  });
+  axes.thickest = std::max(0.5f * static_cast<float>(extremes.greatest), axes.thinnest);
+  if (0.5f * static_cast<float>(extremes.least) < axes.thinnest)
+    std::ranges::transform(axes.points, axes.points.begin(), widened);
   parallel_for(axes.list.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t node = places.base[i];
+      const std::uint32_t bearer = places.axis[node];
+      const bool is_trunk = bearer == kNoParent || bearer == i;
       Axis& axis = axes.list[i];
-      const auto [bearer, rank] = places[axis.base];
+      axis.first = first[i];
+      axis.count = places.count[i];
+      axis.base = is_trunk ? first[i] : first[bearer] + places.rank[node];
+      axis.bearer = is_trunk ? kNoParent : bearer;
       AxisPoint& base = axes.points[axis.first];
-      base = point_at(axis.base);
+      base = skeleton.is_root(node) ? widened(point_at(skeleton, node)) : axes.points[axis.base];
       axis.bearer_radius = base.radius;
-      if (bearer == kNoParent || bearer == i) {
-        axis.base = axis.first;
-        continue;
-      }
-      base.radius = axes.points[axis.first + 1].radius;
-      axis.base = axes.list[bearer].first + rank;
-      axis.bearer = bearer;
+      if (!is_trunk) base.radius = axes.points[axis.first + 1].radius;
     }
   });
   return axes;

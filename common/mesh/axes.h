@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "common/base/bulk.h"
 #include "common/base/geometry.h"
@@ -10,21 +11,21 @@
 
 namespace ramify {
 
-/// A node as meshes need it.
+/// A node as meshes need it. Like Axis without defaults: find_axes() writes all of them, and only once.
 struct AxisPoint {
-  Vec3f position;       // metres
-  float radius = 0.0f;  // metres
-  std::uint32_t node = 0;
+  Vec3f position;  // metres
+  float radius;    // metres
+  std::uint32_t node;
 };
 
 /// A run of Axes::points: the node that the first internode grows from, then the axis's own. A lateral is as
 /// thick at its base as at its first node.
 struct Axis {
-  std::uint32_t first = 0;  // point
-  std::uint32_t count = 0;  // of points, at least 2
-  std::uint32_t base = 0;   // the bearer's point that the axis grows from; of a trunk its own first one
-  std::uint32_t bearer = kNoParent;  // the axis that this one grows from; none of a trunk
-  float bearer_radius = 0.0f;        // at the base; of a trunk its own
+  std::uint32_t first;   // point
+  std::uint32_t count;   // of points, at least 2
+  std::uint32_t base;    // the bearer's point that the axis grows from; of a trunk its own first one
+  std::uint32_t bearer;  // the axis that this one grows from; of a trunk kNoParent
+  float bearer_radius;   // at the base; of a trunk its own
 
   bool is_trunk() const { return bearer == kNoParent; }
   std::uint32_t end() const { return first + count; }
@@ -33,8 +34,9 @@ struct Axis {
 struct Axes {
   BulkVector<Axis> list;  // by their first nodes: only a trunk may come after what grows beside it
   BulkVector<AxisPoint> points;
-  float thinnest = 0.0f;  // radius, metres: no point has less
-  float thickest = 0.0f;  // radius of any node, metres
+  std::vector<std::uint32_t> at_roots;  // the axes that grow from root nodes: trunks and real roots
+  float thinnest = 0.0f;                // radius, metres: no point has less
+  float thickest = 0.0f;                // radius of any node, metres
 };
 
 /// All axes of a sound skeleton. O(n).

@@ -11,6 +11,9 @@
 
 namespace ramify {
 
+// Shorter stretches have no direction of their own, metres.
+constexpr float kLeastLength = 1e-12f;
+
 /// A node of a tube, with the stretch that leads to it.
 struct Knot {
   Vec3f position;
@@ -38,7 +41,7 @@ inline void measure(std::span<Knot> knots, std::size_t i) {
   const Vec3f step = knot.position - knots[i - 1].position;
   knot.length = glm::length(step);
   knot.room = knot.length;
-  knot.along = knot.length > 1e-12f ? step / knot.length : knots[i - 1].along;
+  knot.along = knot.length > kLeastLength ? step / knot.length : knots[i - 1].along;
   if (i == 1) knots[0].along = knot.along;
 }
 

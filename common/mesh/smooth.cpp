@@ -6,6 +6,7 @@
 
 #include "common/base/parallel.h"
 #include "common/mesh/detail.h"
+#include "common/mesh/plain_tubes.h"
 #include "common/mesh/tube_plan.h"
 #include "common/mesh/wood.h"
 
@@ -18,26 +19,6 @@ constexpr std::size_t kGrain = 256;
 constexpr float kTipRing = 0.6f;
 constexpr float kTipRingRadius = 0.75f;
 constexpr float kTipLength = 1.0f;
-constexpr float kPointedTipLength = 2.0f;
-
-/// Points of a circle of so many sides, one a side. O(1) after the first call.
-const Vec2f* unit_circle(std::uint32_t sides) {
-  constexpr std::uint32_t most = 128;
-  struct Circles {
-    std::array<Vec2f, most*(most + 1) / 2> points;
-    Circles() {
-      for (std::uint32_t n = 1; n <= most; ++n) {
-        for (std::uint32_t i = 0; i < n; ++i) {
-          const double angle = 2.0 * std::numbers::pi * i / n;
-          points[n * (n - 1) / 2 + i] = {static_cast<float>(std::cos(angle)),
-                                         static_cast<float>(std::sin(angle))};
-        }
-      }
-    }
-  };
-  static const Circles circles;
-  return &circles.points[sides * (sides - 1) / 2];
-}
 
 /// Unit vectors along a tube's line and across it.
 struct Frame {
@@ -56,7 +37,7 @@ struct Frame {
     // The turn from a to b takes v, square to a, to v - (a + b) b.v / (1 + a.b). Half a turn leaves it.
     const float cosine = glm::dot(along, next);
     Vec3f carried = side;
-    if (cosine > -0.9999f) carried -= (along + next) * (glm::dot(next, side) / (1.0f + cosine));
+    if (cosine > kHalfTurn) carried -= (along + next) * (glm::dot(next, side) / (1.0f + cosine));
     // A step of Newton's: rounding would add up over thousands of rings.
     set(next, carried * (1.5f - 0.5f * glm::dot(carried, carried)));
   }
@@ -366,35 +347,40 @@ class TubeWriter {
   float from_base_ = 0.0f;
 };
 
-Mesh mesh_of(const TubePlan& plan, Mesh memory) {
+}  // namespace
+
+Mesh sweep(const TubePlan& plan, Mesh memory) {
   Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count, std::move(memory));
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     TubeWriter writer(plan, mesh);
+    PlainTubeWriter plain(plan, mesh);
     for (std::size_t i = begin; i < end; ++i) {
-      if (plan.tubes[i].rings > 0) writer.write(i);
+      if (plan.tubes[i].is_plain) {
+        plain.add(static_cast<std::uint32_t>(i));
+      } else if (plan.tubes[i].rings > 0) {
+        writer.write(i);
+      }
     }
   });
   return mesh;
 }
-
-}  // namespace
 
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh memory) {
   if (skeleton.internode_count() == 0) return {};
   const Axes axes = find_axes(skeleton);
   const TubePlan plan = plan_tubes(skeleton, axes, options);
   const std::size_t budget = triangle_budget(plan.triangle_count, options);
-  if (plan.triangle_count <= budget) return mesh_of(plan, std::move(memory));
+  if (plan.triangle_count <= budget) return sweep(plan, std::move(memory));
   const auto count = [&](double tolerance) {
     return plan_tubes(skeleton, axes, options, tolerance).triangle_count;
   };
   const double tolerance = least_tolerance(skeleton, budget, count);
-  return mesh_of(plan_tubes(skeleton, axes, options, tolerance), std::move(memory));
+  return sweep(plan_tubes(skeleton, axes, options, tolerance), std::move(memory));
 }
 
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, double tolerance) {
   const Axes axes = find_axes(skeleton);
-  return mesh_of(plan_tubes(skeleton, axes, options, tolerance), {});
+  return sweep(plan_tubes(skeleton, axes, options, tolerance), {});
 }
 
 }  // namespace ramify

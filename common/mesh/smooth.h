@@ -9,6 +9,8 @@
 
 namespace ramify {
 
+struct TubePlan;
+
 /// A lateral's tube begins inside its parent's surface with a collar that flows over into it, but for thin
 /// twigs; a trunk's foot flares and is closed flat, tips are rounded or, on twigs, pointed. A collar is its
 /// lateral's. A skeleton without internodes gives an empty mesh. O(n), on all threads; no more than the mesh
@@ -18,5 +20,8 @@ Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh me
 
 /// The same with a tolerance of one's own: no wood is farther than five times as far from the mesh, metres.
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, double tolerance);
+
+/// The mesh of a plan. O(rings), on all threads. `memory` as above.
+Mesh sweep(const TubePlan& plan, Mesh memory = {});
 
 }  // namespace ramify

@@ -1,6 +1,7 @@
 #include "common/mesh/tube_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/parallel.h"
 #include "common/mesh/detail.h"
@@ -45,15 +46,14 @@ std::uint8_t collar_stretches(std::uint32_t sides) {
 void find_flares(TubePlan& plan, const Skeleton& skeleton) {
   if (plan.flare <= 0.0) return;
   const Axes& axes = *plan.axes;
-  const std::size_t roots = skeleton.root_count();
-  std::vector<bool> has_roots(roots, false);
   const auto first_node = [&](const Axis& axis) { return axes.points[axis.first + 1].node; };
   const auto base_node = [&](const Axis& axis) { return axes.points[axis.first].node; };
-  for (const Axis& axis : axes.list) {
-    const bool is_real_root = skeleton.kind[first_node(axis)] == Kind::root;
-    if (is_real_root && base_node(axis) < roots) has_roots[base_node(axis)] = true;
+  std::vector<bool> has_roots(skeleton.root_count(), false);
+  for (const std::uint32_t i : axes.at_roots) {
+    const Axis& axis = axes.list[i];
+    if (skeleton.kind[first_node(axis)] == Kind::root) has_roots[base_node(axis)] = true;
   }
-  for (std::size_t i = 0; i < axes.list.size(); ++i) {
+  for (const std::uint32_t i : axes.at_roots) {
     const Axis& axis = axes.list[i];
     if (!axis.is_trunk()) continue;
     const std::uint32_t base = base_node(axis);
@@ -106,6 +106,21 @@ void stand_on_ground(std::vector<LinePoint>& points, float height) {
   part_rings(points, 1);
 }
 
+// A ring repeats its first vertex at the end, where u jumps from 1 to 0. The tip has a vertex a side, a
+// closed base its rim once more and a center.
+std::size_t vertex_count(const Tube& tube) {
+  const std::size_t base_sides = tube.sides * (tube.flare_rings > 0 ? 2 : 1);
+  return tube.rings * (tube.sides + 1) + tube.flare_rings * tube.sides + tube.sides +
+         (tube.is_closed ? base_sides + 1 : 0);
+}
+
+std::size_t triangle_count(const Tube& tube) {
+  const std::size_t base_sides = tube.sides * (tube.flare_rings > 0 ? 2 : 1);
+  std::size_t bands = (tube.rings - 1) * 2;  // of triangles a side
+  if (tube.flare_rings > 0) bands += (tube.flare_rings - 1) * 2 + 1;
+  return (bands + 1) * tube.sides + (tube.is_closed ? base_sides : 0);
+}
+
 class Planner {
  public:
   Planner(TubePlan& plan, const MesherOptions& options)
@@ -114,6 +129,7 @@ class Planner {
         options_(options),
         tolerance_(static_cast<float>(plan.tolerance)),
         turn_max_(plan.tolerance > 0.0 ? 2.0f * kTurnMax : kTurnMax),
+        twig_(radius_of_sides(options.sides_min + 0.499)),
         seen_(std::max(2.0f * tolerance_, kLeastCollar * axes_.thickest)) {}
 
   /// Chooses a tube's points, sides and rings.
@@ -145,12 +161,24 @@ class Planner {
     }
     tube.rings = static_cast<std::uint32_t>(rings) + tube.collar + (tube.has_round_tip() ? 1 : 0) -
                  (tube.is_pointed ? 1 : 0);
+    tube.is_plain = plan_.line == CentreLine::polyline && tube.sides == 3 && tube.collar == 0 &&
+                    !tube.is_closed && !tube.is_pointed && knots_.size() == axis.count && rings == axis.count;
+    // As yet as many as there are: where they begin is known when all tubes are planned.
+    tube.first_vertex = vertex_count(tube);
+    tube.first_triangle = triangle_count(tube);
   }
 
  private:
+  /// Where side_count() has so many sides before it rounds them.
+  float radius_of_sides(double sides) const {
+    const double share = sides / options_.sides_max;
+    return static_cast<float>(share * share * double{axes_.thickest});
+  }
+
   std::uint16_t sides(const Axis& axis) const {
     const float radius = axes_.points[axis.first + 1].radius;
-    const std::uint32_t wanted = side_count(radius, axes_.thickest, options_);
+    const std::uint32_t wanted = radius < twig_ ? static_cast<std::uint32_t>(options_.sides_min)
+                                                : side_count(radius, axes_.thickest, options_);
     return static_cast<std::uint16_t>(sides_within(wanted, radius, plan_.tolerance));
   }
 
@@ -210,25 +238,11 @@ class Planner {
   const MesherOptions& options_;
   const float tolerance_;
   const float turn_max_;
+  const float twig_;         // thinner wood, most of a tree, has the fewest sides
   const float seen_;         // thinner laterals have no collar
   std::vector<Knot> knots_;  // scratch, as below
   std::vector<LinePoint> points_;
 };
-
-// A ring repeats its first vertex at the end, where u jumps from 1 to 0. The tip has a vertex a side, a
-// closed base its rim once more and a center.
-std::size_t vertex_count(const Tube& tube) {
-  const std::size_t base_sides = tube.sides * (tube.flare_rings > 0 ? 2 : 1);
-  return tube.rings * (tube.sides + 1) + tube.flare_rings * tube.sides + tube.sides +
-         (tube.is_closed ? base_sides + 1 : 0);
-}
-
-std::size_t triangle_count(const Tube& tube) {
-  const std::size_t base_sides = tube.sides * (tube.flare_rings > 0 ? 2 : 1);
-  std::size_t bands = (tube.rings - 1) * 2;  // of triangles a side
-  if (tube.flare_rings > 0) bands += (tube.flare_rings - 1) * 2 + 1;
-  return (bands + 1) * tube.sides + (tube.is_closed ? base_sides : 0);
-}
 
 }  // namespace
 
@@ -250,11 +264,8 @@ TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOpti
     }
   });
   for (Tube& tube : plan.tubes) {
-    tube.first_vertex = plan.vertex_count;
-    tube.first_triangle = plan.triangle_count;
-    if (tube.rings == 0) continue;
-    plan.vertex_count += vertex_count(tube);
-    plan.triangle_count += triangle_count(tube);
+    plan.vertex_count += std::exchange(tube.first_vertex, plan.vertex_count);
+    plan.triangle_count += std::exchange(tube.first_triangle, plan.triangle_count);
   }
   return plan;
 }

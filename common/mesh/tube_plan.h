@@ -18,6 +18,12 @@ namespace ramify {
 // The part of a lateral's first stretch that its first bend may count on: the collar takes the rest.
 constexpr float kRoomBesideCollar = 0.5f;
 
+// How far a tip that is a cone reaches beyond its last node, in radii.
+constexpr float kPointedTipLength = 2.0f;
+
+// Cosine beyond which a line turns back on itself, and frames are carried on as they are.
+constexpr float kHalfTurn = -0.9999f;
+
 /// The tube of an axis.
 struct Tube {
   std::uint32_t rings = 0;  // of vertices, the collar's among them; without rings it is left out
@@ -29,6 +35,8 @@ struct Tube {
   bool is_pointed = false;  // ends in a point at its last node; else in a tip beyond it
   std::size_t first_vertex = 0;
   std::size_t first_triangle = 0;
+
+  bool is_plain = false;  // see PlainTubeWriter
 
   bool has_round_tip() const { return !is_pointed && sides >= 6; }
 };

@@ -1,7 +1,9 @@
 #include "common/mesh/wood.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace ramify {
 namespace {
@@ -44,12 +46,33 @@ std::uint32_t side_count(double diameter, double greatest, const MesherOptions& 
   return static_cast<std::uint32_t>(std::clamp(sides, options.sides_min, options.sides_max));
 }
 
+const Vec2f* unit_circle(std::uint32_t sides) {
+  constexpr std::uint32_t most = 128;
+  struct Circles {
+    std::array<Vec2f, most*(most + 1) / 2> points;
+    Circles() {
+      for (std::uint32_t n = 1; n <= most; ++n) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const double angle = 2.0 * std::numbers::pi * i / n;
+          points[n * (n - 1) / 2 + i] = {static_cast<float>(std::cos(angle)),
+                                         static_cast<float>(std::sin(angle))};
+        }
+      }
+    }
+  };
+  static const Circles circles;
+  return &circles.points[sides * (sides - 1) / 2];
+}
+
+double thinnest_radius(double farthest) {
+  return std::max(farthest, 1e-3) * kThinnestShare;
+}
+
 double thinnest_radius(const Skeleton& skeleton) {
-  double greatest = 0.0;
-  for (const Vec3& p : skeleton.position) {
-    greatest = std::max({greatest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  return std::max(greatest, 1e-3) * kThinnestShare;
+  double farthest = 0.0;
+  for (const Vec3& p : skeleton.position)
+    farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return thinnest_radius(farthest);
 }
 
 }  // namespace ramify

@@ -21,8 +21,12 @@ void finish_wood(Mesh& mesh);
 /// root of the width, so that the error of the silhouette is spread evenly.
 std::uint32_t side_count(double diameter, double greatest, const MesherOptions& options);
 
+/// Points of the unit circle of so many sides, at most 128, one a side. O(1) after the first call.
+const Vec2f* unit_circle(std::uint32_t sides);
+
 /// Metres; wood that is thinner is drawn as thick as this, since float positions could not keep its sides
 /// apart.
 double thinnest_radius(const Skeleton& skeleton);
+double thinnest_radius(double farthest);  // the greatest coordinate, metres
 
 }  // namespace ramify

@@ -52,6 +52,11 @@ TEST_CASE(
       CHECK(base.radius == axes.points[axis.first + 1].radius);
     }
     CHECK(next == axes.points.size());
+    std::vector<std::uint32_t> at_roots;
+    for (std::uint32_t i = 0; i < axes.list.size(); ++i) {
+      if (s.is_root(axes.points[axes.list[i].first].node)) at_roots.push_back(i);
+    }
+    CHECK(axes.at_roots == at_roots);
     for (std::size_t node = 0; node < s.node_count(); ++node) CHECK(found[node] == (s.is_root(node) ? 0 : 1));
   }
 }
@@ -72,4 +77,19 @@ TEST_CASE(
   axes = find_axes(s);
   CHECK(axes.list[0].is_trunk());
   CHECK(axes.list[1].is_trunk());
+}
+
+TEST_CASE("axes: no point is thinner than the thinnest radius, at bases neither") {
+  Skeleton s = random_tree(3, 200);
+  std::ranges::fill(s.diameter, 1e-9);
+  s.diameter.back() = 0.5;
+  const Axes axes = find_axes(s);
+  CHECK(axes.thinnest > 1e-9f);
+  CHECK(axes.thickest == 0.25f);
+  for (const Axis& axis : axes.list) {
+    CHECK(axis.bearer_radius == axes.thinnest);
+    CHECK(axes.points[axis.first].radius >= axes.thinnest);
+    for (std::uint32_t i = axis.first + 1; i < axis.end(); ++i)
+      CHECK(axes.points[i].radius == (axes.points[i].node + 1 == s.node_count() ? 0.25f : axes.thinnest));
+  }
 }

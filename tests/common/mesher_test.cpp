@@ -8,6 +8,7 @@
 #include "common/mesh/attribute_colors.h"
 #include "common/mesh/smooth.h"
 #include "common/mesh/tree_mesh.h"
+#include "common/mesh/tube_plan.h"
 #include "common/skeleton/passes.h"
 #include "tests/catch.h"
 #include "tests/common/trees.h"
@@ -450,6 +451,25 @@ TEST_CASE("mesher: the number of threads does not change the mesh") {
   }
   const ThreadLimit limit(2);
   check_same(one, build_mesh(tree, {}));
+}
+
+TEST_CASE("mesher: plain tubes, written four at a time, are those that are written one by one") {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    Skeleton tree = random_tree(seed, 3000);
+    const double thickest = *std::ranges::max_element(tree.diameter);
+    for (std::size_t node = 0; node < tree.node_count(); ++node) {
+      if (tree.order[node] > 1) tree.diameter[node] *= 0.01 * thickest;
+    }
+    if (seed == 3) tree.position[100] = tree.position[tree.parent[100]];  // a stretch without a direction
+    const Axes axes = find_axes(tree);
+    TubePlan plan = plan_tubes(tree, axes, {});
+    const auto plain = std::ranges::count_if(plan.tubes, &Tube::is_plain);
+    CHECK(3 * plain > std::ssize(plan.tubes));
+    CHECK(plain < std::ssize(plan.tubes));
+    const Mesh mesh = sweep(plan);
+    for (Tube& tube : plan.tubes) tube.is_plain = false;
+    check_same(mesh, sweep(plan));
+  }
 }
 
 TEST_CASE("mesher: a mesh in the memory of another is the one in memory of its own") {

@@ -1,0 +1,304 @@
+#include "common/mesh/plain_tubes.h"
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "common/mesh/wood.h"
+
+namespace ramify {
+namespace {
+
+constexpr std::uint32_t kSides = 3;
+constexpr std::uint32_t kRing = kSides + 1;  // vertices: the first stands there once more, with another u
+
+/// A number of each of four tubes. Like all that follows in the same terms as Vec3f and Frame of smooth.cpp.
+using Lanes = float __attribute__((vector_size(16)));
+using LaneBits = std::int32_t __attribute__((vector_size(16)));
+
+constexpr Lanes all(float value) {
+  return Lanes{value, value, value, value};
+}
+
+Lanes root(Lanes x) {
+  for (int i = 0; i < 4; ++i) x[i] = std::sqrt(x[i]);
+  return x;
+}
+
+struct Lanes3 {
+  Lanes x;
+  Lanes y;
+  Lanes z;
+};
+
+Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Lanes3 operator*(const Lanes3& a, Lanes factor) {
+  return {a.x * factor, a.y * factor, a.z * factor};
+}
+Lanes3 operator/(const Lanes3& a, Lanes divisor) {
+  return {a.x / divisor, a.y / divisor, a.z / divisor};
+}
+Lanes dot(const Lanes3& a, const Lanes3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+Lanes length(const Lanes3& a) {
+  return root(dot(a, a));
+}
+Lanes3 select(LaneBits condition, const Lanes3& a, const Lanes3& b) {
+  return {condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z};
+}
+
+/// rows[i][j] = columns[j][i].
+std::array<Lanes, 4> transposed(Lanes a, Lanes b, Lanes c, Lanes d) {
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const Lanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const Lanes cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+          __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
+          __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+          __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)};
+}
+
+/// The points of four axes at the same place of their rows.
+struct Points {
+  Lanes3 position;
+  Lanes radius;
+};
+
+Points load(const std::array<const AxisPoint*, 4>& points, std::size_t i) {
+  static_assert(offsetof(AxisPoint, radius) == sizeof(Vec3f));
+  Lanes rows[4];
+  for (std::size_t lane = 0; lane < 4; ++lane) std::memcpy(&rows[lane], points[lane] + i, sizeof(Lanes));
+  const std::array<Lanes, 4> columns = transposed(rows[0], rows[1], rows[2], rows[3]);
+  return {{columns[0], columns[1], columns[2]}, columns[3]};
+}
+
+/// Of four tubes: see Frame in smooth.cpp.
+struct Frames {
+  Lanes3 along;
+  Lanes3 side;
+  Lanes3 across;
+
+  void begin(const Lanes3& new_along) {
+    constexpr std::int32_t sign_bit = std::numeric_limits<std::int32_t>::min();
+    const Lanes sign = std::bit_cast<Lanes>((std::bit_cast<LaneBits>(new_along.z) & sign_bit) |
+                                            std::bit_cast<LaneBits>(all(1.0f)));
+    const Lanes a = -1.0f / (sign + new_along.z);
+    set(new_along, {new_along.x * new_along.y * a, sign + new_along.y * new_along.y * a, -new_along.y});
+  }
+
+  void turn_to(const Lanes3& next) {
+    const Lanes cosine = dot(along, next);
+    const Lanes3 turned = side - (along + next) * (dot(next, side) / (1.0f + cosine));
+    const Lanes3 carried = select(cosine > kHalfTurn, turned, side);
+    set(next, carried * (1.5f - 0.5f * dot(carried, carried)));
+  }
+
+ private:
+  void set(const Lanes3& new_along, const Lanes3& new_side) {
+    along = new_along;
+    side = new_side;
+    across = cross(along, side);
+  }
+};
+
+/// Where the next vertices and triangles of four tubes go.
+class Outputs {
+ public:
+  Outputs(const TubePlan& plan, const std::array<std::uint32_t, 4>& tubes, Mesh& mesh) {
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const Tube& tube = plan.tubes[tubes[lane]];
+      vertices_[lane] = static_cast<std::uint32_t>(tube.first_vertex);
+      positions_[lane] = &mesh.positions[tube.first_vertex].x;
+      normals_[lane] = &mesh.normals[tube.first_vertex].x;
+      uvs_[lane] = &mesh.uvs[tube.first_vertex].x;
+      internodes_[lane] = &mesh.internodes[tube.first_vertex];
+      triangles_[lane] = mesh.triangles[tube.first_triangle].data();
+    }
+  }
+
+  /// A ring's vertices but for the last, which repeats the first.
+  void add_ring(const std::array<Lanes3, kSides>& positions, const std::array<Lanes3, kSides>& normals,
+                Lanes v, const std::array<std::uint32_t, 4>& nodes) {
+    add_repeated(positions, positions_);
+    add_repeated(normals, normals_);
+    constexpr float step = 1.0f / kSides;
+    write<2>({transposed(all(0.0f), v, all(step), v), transposed(all(2.0f * step), v, all(3.0f * step), v)},
+             {0, 4}, uvs_);
+    for (float*& place : uvs_) place += 2 * kRing;
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      for (std::size_t i = 0; i < kRing; ++i) internodes_[lane][i] = nodes[lane];
+      internodes_[lane] += kRing;
+      vertices_[lane] += kRing;
+    }
+  }
+
+  /// The band between the last two rings.
+  void join() {
+    static constexpr auto kBand = [] {
+      std::array<std::uint32_t, 6 * kSides> corners{};
+      for (std::uint32_t i = 0; i < kSides; ++i) {
+        const std::uint32_t two[] = {i, i + 1, kRing + i + 1, i, kRing + i + 1, kRing + i};
+        for (std::uint32_t k = 0; k < 6; ++k) corners[6 * i + k] = two[k];
+      }
+      return corners;
+    }();
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const std::uint32_t low = vertices_[lane] - 2 * kRing;
+      for (std::size_t i = 0; i < kBand.size(); ++i) triangles_[lane][i] = low + kBand[i];
+      triangles_[lane] += kBand.size();
+    }
+  }
+
+  /// A vertex for each side, all in one place.
+  void add_tip(const Lanes3& apex, const std::array<Lanes3, kSides>& normals, Lanes v,
+               const std::array<std::uint32_t, 4>& nodes) {
+    // The last of the nine or six numbers are written with some of those before them.
+    const auto& [a, b, c] = normals;
+    write<3>({transposed(apex.x, apex.y, apex.z, apex.x), transposed(apex.y, apex.z, apex.x, apex.y),
+              transposed(apex.z, apex.x, apex.y, apex.z)},
+             {0, 4, 5}, positions_);
+    write<3>({transposed(a.x, a.y, a.z, b.x), transposed(b.y, b.z, c.x, c.y), transposed(b.z, c.x, c.y, c.z)},
+             {0, 4, 5}, normals_);
+    const auto middle = [](float side) { return all((side + 0.5f) / kSides); };
+    write<2>({transposed(middle(0.0f), v, middle(1.0f), v), transposed(middle(1.0f), v, middle(2.0f), v)},
+             {0, 2}, uvs_);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const std::uint32_t tip = vertices_[lane];
+      const std::uint32_t ring = tip - kRing;
+      for (std::uint32_t i = 0; i < kSides; ++i) {
+        internodes_[lane][i] = nodes[lane];
+        triangles_[lane][3 * i] = ring + i;
+        triangles_[lane][3 * i + 1] = ring + i + 1;
+        triangles_[lane][3 * i + 2] = tip + i;
+      }
+    }
+  }
+
+ private:
+  static void add_repeated(const std::array<Lanes3, kSides>& ring, std::array<float*, 4>& places) {
+    const auto& [a, b, c] = ring;
+    write<3>({transposed(a.x, a.y, a.z, b.x), transposed(b.y, b.z, c.x, c.y), transposed(c.z, a.x, a.y, a.z)},
+             {0, 4, 8}, places);
+    for (float*& place : places) place += 3 * kRing;
+  }
+
+  /// rows[i][lane] goes to offsets[i] numbers beyond the lane's place.
+  template <std::size_t Count>
+  static void write(const std::array<std::array<Lanes, 4>, Count>& rows,
+                    const std::array<std::size_t, Count>& offsets, const std::array<float*, 4>& places) {
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      for (std::size_t i = 0; i < Count; ++i)
+        std::memcpy(places[lane] + offsets[i], &rows[i][lane], sizeof(Lanes));
+    }
+  }
+
+  std::array<std::uint32_t, 4> vertices_;
+  std::array<float*, 4> positions_;
+  std::array<float*, 4> normals_;
+  std::array<float*, 4> uvs_;
+  std::array<std::uint32_t*, 4> internodes_;
+  std::array<std::uint32_t*, 4> triangles_;
+};
+
+/// The direction of a ring between two stretches.
+Lanes3 between(const Lanes3& before, const Lanes3& after) {
+  const Lanes3 sum = before + after;
+  const Lanes sum_length = length(sum);
+  return select(sum_length < 1e-6f, before, sum / sum_length);
+}
+
+std::array<Lanes3, kSides> around(const Lanes3& center, const Lanes3& side, const Lanes3& across,
+                                  const Vec2f* circle, std::size_t stride) {
+  std::array<Lanes3, kSides> ring;
+  for (std::size_t i = 0; i < kSides; ++i) {
+    const Vec2f& on_circle = circle[i * stride];
+    ring[i] = center + side * all(on_circle.x) + across * all(on_circle.y);
+  }
+  return ring;
+}
+
+}  // namespace
+
+void PlainTubeWriter::add(std::uint32_t tube) {
+  const std::uint32_t count = plan_.axes->list[tube].count;
+  if (groups_.size() <= count) groups_.resize(count + 1);
+  Group& group = groups_[count];
+  group.tubes[group.size++] = tube;
+  if (group.size == kLanes) write(group);
+}
+
+void PlainTubeWriter::write_rest() {
+  for (Group& group : groups_) {
+    if (group.size == 0) continue;
+    // Lanes that are left over write the first tube once more.
+    for (std::size_t lane = group.size; lane < kLanes; ++lane) group.tubes[lane] = group.tubes[0];
+    write(group);
+  }
+}
+
+void PlainTubeWriter::write(Group& group) {
+  group.size = 0;
+  std::array<const AxisPoint*, kLanes> points;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    points[lane] = &plan_.axes->points[plan_.axes->list[group.tubes[lane]].first];
+  const std::size_t count = plan_.axes->list[group.tubes[0]].count;
+  const auto nodes_at = [&](std::size_t i) {
+    return std::array{points[0][i].node, points[1][i].node, points[2][i].node, points[3][i].node};
+  };
+  const Vec2f* circle = unit_circle(kSides);
+  Outputs out(plan_, group.tubes, mesh_);
+
+  Points at = load(points, 0);
+  Frames frames;
+  Lanes3 along_before{all(0.0f), all(1.0f), all(0.0f)};
+  Lanes length_before = all(0.0f);
+  Lanes radius_before = at.radius;
+  Lanes v = all(0.0f);
+  for (std::size_t i = 0;; ++i) {
+    const bool is_last = i + 1 == count;
+    const Points next = is_last ? at : load(points, i + 1);
+    const Lanes3 step = next.position - at.position;
+    const Lanes length_after = length(step);
+    const Lanes3 along_after = select(length_after > kLeastLength, step / length_after, along_before);
+    if (i == 0) {
+      frames.begin(along_after);
+    } else {
+      v += length_before / (std::numbers::pi_v<float> * (at.radius + radius_before));
+      frames.turn_to(is_last ? along_before : between(along_before, along_after));
+    }
+    const Lanes both = length_before + length_after;
+    const Lanes slope = both > plan_.axes->thinnest ? (radius_before - next.radius) / both : all(0.0f);
+    const Lanes shorten = 1.0f / root(1.0f + slope * slope);
+    out.add_ring(
+        around(at.position, frames.side * at.radius, frames.across * at.radius, circle, 1),
+        around(frames.along * (slope * shorten), frames.side * shorten, frames.across * shorten, circle, 1),
+        v, nodes_at(i == 0 ? 1 : i));
+    if (i > 0) out.join();
+    if (is_last) break;
+    radius_before = at.radius;
+    length_before = length_after;
+    along_before = along_after;
+    at = next;
+  }
+  const Lanes tip = kPointedTipLength * at.radius;
+  const Lanes share = all(std::numbers::sqrt2_v<float> / 2.0f);
+  out.add_tip(at.position + frames.along * tip,
+              around(frames.along * share, frames.side * share, frames.across * share,
+                     unit_circle(2 * kSides) + 1, 2),
+              v + tip / (2.0f * std::numbers::pi_v<float> * at.radius), nodes_at(count - 1));
+}
+
+}  // namespace ramify
