@@ -14,8 +14,8 @@ constexpr std::size_t kGrain = 4096;
 
 /// Which axis each node belongs to and where on it: roots stand at the first point of their trunks.
 struct Places {
-  BulkVector<std::uint32_t> axis;  // of each node
-  BulkVector<std::uint32_t> rank;  // points of the axis before the node
+  BulkVector<std::uint32_t> axis;   // of each node
+  BulkVector<std::uint32_t> point;  // of each node, counted from its axis's first
 
   BulkVector<std::uint32_t> base;   // of each axis: the node that it grows from
   BulkVector<std::uint32_t> count;  // of each axis, points
@@ -29,11 +29,11 @@ Places find_places(const Skeleton& skeleton) {
   const auto roots = static_cast<std::uint32_t>(skeleton.root_count());
   Places places;
   places.axis.resize(nodes);
-  places.rank.resize(nodes);
+  places.point.resize(nodes);
   places.base.resize(nodes);  // one more than there are axes is written to
   places.count.resize(nodes);
   std::fill_n(places.axis.begin(), roots, kNoParent);
-  std::fill_n(places.rank.begin(), roots, 0);
+  std::fill_n(places.point.begin(), roots, 0);
   std::uint32_t axes = 0;
   for (std::size_t node = roots; node < nodes; ++node) {
     const std::uint32_t parent = skeleton.parent[node];
@@ -48,7 +48,7 @@ Places find_places(const Skeleton& skeleton) {
     const std::uint32_t axis = goes_on ? places.axis[parent] : axes;
     axes += goes_on ? 0 : 1;
     places.axis[node] = axis;
-    places.rank[node] = places.count[axis]++;
+    places.point[node] = places.count[axis]++;
   }
   places.base.resize(axes);
   places.count.resize(axes);
@@ -79,19 +79,23 @@ AxisPoint point_at(const Skeleton& skeleton, std::size_t node) {
           .node = static_cast<std::uint32_t>(node)};
 }
 
-/// Writes the points of all internodes. `first` has one an axis.
-Extremes lay_points(const Skeleton& skeleton, const Places& places, const BulkVector<std::uint32_t>& first,
+/// Writes the points of all internodes, and counts those of `places` from the first of all axes. `first` has
+/// one an axis.
+Extremes lay_points(const Skeleton& skeleton, const BulkVector<std::uint32_t>& first, Places& places,
                     BulkVector<AxisPoint>& points) {
   Extremes all;
   const std::size_t roots = skeleton.root_count();
-  for (std::size_t root = 0; root < roots; ++root)
+  for (std::size_t root = 0; root < roots; ++root) {
     all.include(skeleton.position[root], skeleton.diameter[root]);
+    if (places.axis[root] != kNoParent) places.point[root] = first[places.axis[root]];
+  }
   std::mutex of_all;
   parallel_for(skeleton.internode_count(), kGrain, [&](std::size_t begin, std::size_t end) {
     Extremes here;
     for (std::size_t node = roots + begin; node < roots + end; ++node) {
       here.include(skeleton.position[node], skeleton.diameter[node]);
-      points[first[places.axis[node]] + places.rank[node]] = point_at(skeleton, node);
+      places.point[node] += first[places.axis[node]];
+      points[places.point[node]] = point_at(skeleton, node);
     }
     const std::lock_guard lock(of_all);
     all.include(here);
@@ -113,7 +117,7 @@ Axes find_axes(const Skeleton& skeleton) {
     count += places.count[i];
   }
   axes.points.resize(count);
-  const Extremes extremes = lay_points(skeleton, places, first, axes.points);
+  const Extremes extremes = lay_points(skeleton, first, places, axes.points);
   const Vec3& farthest = extremes.coordinate;
   axes.thinnest = static_cast<float>(thinnest_radius(std::max({farthest.x, farthest.y, farthest.z})));
   const auto widened = [&](AxisPoint point) {
@@ -131,7 +135,7 @@ Axes find_axes(const Skeleton& skeleton) {
       Axis& axis = axes.list[i];
       axis.first = first[i];
       axis.count = places.count[i];
-      axis.base = is_trunk ? first[i] : first[bearer] + places.rank[node];
+      axis.base = is_trunk ? first[i] : places.point[node];
       axis.bearer = is_trunk ? kNoParent : bearer;
       AxisPoint& base = axes.points[axis.first];
       base = skeleton.is_root(node) ? widened(point_at(skeleton, node)) : axes.points[axis.base];
