@@ -63,6 +63,9 @@ void LeafField::reset(const FieldItems& items, std::span<const std::uint32_t> to
     one.center = Vec3f((fork.center - center) / voxel_size);
     one.zone = voxels(fork.zone);
     one.width = voxels(fork.width);
+    one.cut = Vec3f(fork.cut);
+    one.cut_offset =
+        fork.cut != Vec3(0.0) ? glm::dot(Vec3f((fork.cut_at - center) / voxel_size), one.cut) : -kFar;
     one.cones.resize(fork.cones.size());
     one.others.resize(fork.others.size());
     std::transform(fork.cones.begin(), fork.cones.end(), one.cones.begin(), local);
@@ -128,6 +131,8 @@ void LeafField::focus(const Vec3f& place, float radius) {
     one.center = fork.center;
     one.zone = fork.zone;
     one.width = fork.width;
+    one.cut = fork.cut;
+    one.cut_offset = fork.cut_offset;
     keep(fork.cones, a + 2.0f * radius, one.cones);
     keep(fork.others, b + 2.0f * radius, one.others);
     deepest = std::max(deepest, depth);
@@ -187,10 +192,19 @@ void LeafField::blend(const Blend& fork, Batch& batch, bool with_slopes) const {
     const float width = fork.width * angle * faded * faded * (3.0f - 2.0f * faded);
     if (apart >= width) continue;
     const float overlap = width - apart;
-    const float value = least - static_cast<float>(kBlendDepth) * overlap * overlap / width;
+    const float blended = least - static_cast<float>(kBlendDepth) * overlap * overlap / width;
+    const float behind =
+        fork.cut_offset - (batch.x[i] * fork.cut.x + batch.y[i] * fork.cut.y + batch.z[i] * fork.cut.z);
+    const float value = std::max(blended, behind);
     if (value >= batch.value[i]) continue;
     batch.value[i] = value;
     if (!with_slopes) continue;
+    if (behind > blended) {
+      batch.slope_x[i] = -fork.cut.x;
+      batch.slope_y[i] = -fork.cut.y;
+      batch.slope_z[i] = -fork.cut.z;
+      continue;
+    }
     const float of_farther = 2.0f * static_cast<float>(kBlendDepth) * overlap / width;
     const bool is_a = a.value[i] < b.value[i];
     const float of_a = is_a ? 1.0f - of_farther : of_farther;

@@ -64,6 +64,8 @@ class LeafField {
     Vec3f center;
     float zone;
     float width;
+    Vec3f cut;
+    float cut_offset;
     std::vector<std::uint32_t> cones;  // indices into cones_
     std::vector<std::uint32_t> others;
   };

@@ -14,8 +14,8 @@ constexpr double kZone = 2.5;
 // Cosine of the angle to the vertical up to which a stem stands on the ground.
 constexpr double kStanding = 0.5;
 
-// Cosine of the angle to that up to which what starts at a root is cut off with it: little of what lies would
-// be left.
+// Cosine of the angle to that up to which what starts at a root is cut off with it, if it does not leave the
+// ground with its first internode: little of what lies would be left.
 constexpr double kLying = 0.2;
 
 /// Who follows whom on an axis, and the laterals of each node, among the internodes kept.
@@ -60,22 +60,22 @@ Ground ground_at(const Skeleton& skeleton, const Branching& branching, std::uint
 bool is_cut(const Skeleton& skeleton, const Ground& ground, std::uint32_t internode) {
   if (ground.up == Vec3(0.0) || skeleton.kind[internode] == Kind::root) return false;
   const std::uint32_t parent = skeleton.parent[internode];
+  const double tip = ground.height(skeleton.position[internode]);
+  const double tip_radius = 0.5 * skeleton.diameter[internode];
   if (skeleton.is_root(parent)) {
     const Vec3 along = normalized_or(skeleton.along(internode), Vec3(0.0), 1e-12);
-    return glm::dot(ground.up, along) > kLying;
+    return tip > tip_radius || glm::dot(ground.up, along) > kLying;
   }
   const double base = ground.height(skeleton.position[parent]);
-  const double tip = ground.height(skeleton.position[internode]);
-  return std::min(base, tip) > 0.0 &&
-         (base < skeleton.start_radius(internode) || tip < 0.5 * skeleton.diameter[internode]);
+  return std::min(base, tip) > 0.0 && (base < skeleton.start_radius(internode) || tip < tip_radius);
 }
 
 /// Finds the forks of a field whose cones are made.
 class ForkFinder {
  public:
   ForkFinder(const Skeleton& skeleton, const Branching& branching, const std::vector<std::uint32_t>& cone_of,
-             double blend)
-      : skeleton_(skeleton), branching_(branching), cone_of_(cone_of), blend_(blend) {}
+             const std::vector<RoundCone>& cones, double blend)
+      : skeleton_(skeleton), branching_(branching), cone_of_(cone_of), cones_(cones), blend_(blend) {}
 
   /// Each lateral of `node` with the axis it leaves, and with the other laterals.
   void add_forks(std::uint32_t node, std::vector<ForkBlend>& forks) const {
@@ -85,11 +85,13 @@ class ForkFinder {
       ForkBlend fork = empty_fork(node, radius, 0.5 * skeleton_.diameter[node]);
       fork.cones = cones_upwards(laterals[i], fork);
       fork.others = cones_through(node, fork);
+      cut(fork);
       if (!fork.others.empty()) forks.push_back(std::move(fork));
       for (std::size_t j = 0; j < i; ++j) {
         ForkBlend sides = empty_fork(node, radius, skeleton_.start_radius(laterals[j]));
         sides.cones = cones_upwards(laterals[i], sides);
         sides.others = cones_upwards(laterals[j], sides);
+        cut(sides);
         forks.push_back(std::move(sides));
       }
     }
@@ -102,6 +104,21 @@ class ForkFinder {
     fork.width = blend_ * std::min(radius, other_radius);
     fork.zone = kZone * (std::max(radius, other_radius) + fork.width);
     return fork;
+  }
+
+  /// Where cones stand on the ground their blend does so too, unless real roots go on below.
+  void cut(ForkBlend& fork) const {
+    const RoundCone* standing = nullptr;
+    for (const std::vector<std::uint32_t>& side : {fork.cones, fork.others}) {
+      for (const std::uint32_t index : side) {
+        const RoundCone& cone = cones_[index];
+        if (skeleton_.kind[cone.internode] == Kind::root) return;
+        if (cone.cut != Vec3(0.0)) standing = &cone;
+      }
+    }
+    if (standing == nullptr) return;
+    fork.cut = standing->cut;
+    fork.cut_at = standing->cut_at;
   }
 
   bool is_near(std::uint32_t node, const ForkBlend& fork) const {
@@ -130,6 +147,7 @@ class ForkFinder {
   const Skeleton& skeleton_;
   const Branching& branching_;
   const std::vector<std::uint32_t>& cone_of_;
+  const std::vector<RoundCone>& cones_;
   double blend_;
 };
 
@@ -198,7 +216,7 @@ WoodField wood_field(const Skeleton& skeleton, const std::vector<bool>& is_kept,
     field.cones.push_back(cone);
   }
   if (blend > 0.0) {
-    const ForkFinder finder(skeleton, branching, cone_of, blend);
+    const ForkFinder finder(skeleton, branching, cone_of, field.cones, blend);
     for (std::uint32_t node = 0; node < count; ++node) finder.add_forks(node, field.forks);
   }
   return field;

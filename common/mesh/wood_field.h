@@ -41,6 +41,8 @@ struct ForkBlend {
   double width = 0.0;                 // differences of distance below this are smoothed, metres
   std::vector<std::uint32_t> cones;   // of the one axis near the fork
   std::vector<std::uint32_t> others;  // of the other
+  Vec3 cut{0.0};                      // as of a cone: the blend must not fill what was cut off there
+  Vec3 cut_at{0.0};
 };
 
 /// Distances to the wood's surface, metres, negative inside: the least of all cones', and less where forks

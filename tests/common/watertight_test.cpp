@@ -328,6 +328,28 @@ TEST_CASE("watertight: a trunk that leans is cut off level with the ground, noth
   CHECK(on_ground > 10);
 }
 
+TEST_CASE(
+    "watertight: laterals at the root, leaning little or much, blend into the trunk above the ground alone") {
+  for (const double lean_deg : {20.0, 45.0, 70.0, 82.0}) {
+    for (const double diameter : {0.1, 0.2, 0.4}) {
+      if (lean_deg > 80.0 && diameter > 0.2) continue;  // it lies
+      Skeleton tree;
+      add_node(tree, {0, 0, 0}, kNoParent, 0.4);
+      add_node(tree, {0, 0.5, 0}, 0, 0.4);
+      add_node(tree, {0, 1, 0}, 1, 0.4);
+      const double lean = radians(lean_deg);
+      add_node(tree, Vec3(std::sin(lean), std::cos(lean), 0), 0, diameter);
+      tree.axis = {0, 0, 0, 1};
+      const Mesh mesh = watertight(tree, {.voxel_size = 0.02});
+      INFO(lean_deg << " degrees, " << diameter << " m");
+      check_closed(mesh, 1);
+      float lowest = 1.0f;
+      for (const Vec3f& p : mesh.positions) lowest = std::min(lowest, p.y);
+      CHECK(lowest > -0.006f);
+    }
+  }
+}
+
 TEST_CASE("watertight: the bark of two axes meets where both are equally near") {
   Skeleton tree;
   add_node(tree, {0, 0, 0}, kNoParent, 0.4);
