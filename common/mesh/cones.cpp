@@ -12,9 +12,15 @@ namespace ramify {
 namespace {
 
 // Cosine beyond which an axis bends at a node: the ends of both cones would stand out of a sphere of as few
-// sides. Twigs of less than so many sides are not seen from so near.
+// sides.
 const double kStraight = std::cos(radians(8.0));
-constexpr std::uint32_t kSidesRounded = 5;
+
+// Circles of latitude of the sphere at a tip, of which half is seen: with fewer it would look pointed.
+constexpr std::uint32_t kTipLatitudes = 5;
+
+// Of a twig of less than so many sides.
+constexpr std::uint32_t kTwigSides = 5;
+constexpr std::uint32_t kTwigTipLatitudes = 3;
 
 /// How the parts of one node lie: its sphere, and the cone from its parent.
 struct NodePart {
@@ -24,8 +30,10 @@ struct NodePart {
   double base_radius = 0.0;  // of the cone
   bool has_cone = false;
   bool has_sphere = false;
-  bool is_foot = false;            // of a tree: it stands flat on the ground
-  std::uint32_t sides = 0;         // of the cone
+  bool is_tip = false;             // the axis ends here
+  std::uint32_t root = 0;          // of the tree
+  std::uint32_t axis_sides = 0;    // of the axis at its base, as thick axes have them
+  std::uint32_t sides = 0;         // of the cone: as many, but for coarse levels
   std::uint32_t sphere_sides = 0;  // as many, or twice where the axis bends
   std::size_t first_vertex = 0;
   std::size_t first_triangle = 0;
@@ -34,7 +42,8 @@ struct NodePart {
 /// Circles of latitude of a sphere, its poles not counted: its facets are about square, and the middle one is
 /// where the cone ends, so that no edge of that stands out.
 std::uint32_t latitudes(const NodePart& part) {
-  return std::max<std::uint32_t>(1, part.sphere_sides / 2 - 1) | 1u;
+  const std::uint32_t at_tip = part.sides < kTwigSides ? kTwigTipLatitudes : kTipLatitudes;
+  return std::max(part.is_tip ? at_tip : 1u, part.sphere_sides / 2 - 1) | 1u;
 }
 
 // A ring repeats its first vertex at the end, where u jumps from 1 to 0; a pole has a vertex a side.
@@ -56,6 +65,7 @@ double radius(const Skeleton& skeleton, std::size_t node, double thinnest) {
 
 struct ConesPlan {
   std::vector<NodePart> parts;
+  std::vector<bool> has_roots;  // of each tree; without, it stands flat on the ground
   std::size_t vertex_count = 0;
   std::size_t triangle_count = 0;
 };
@@ -68,29 +78,35 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
   const std::vector<bool> is_kept = kept_axes(skeleton, tolerance);
   ConesPlan plan;
   plan.parts.resize(skeleton.node_count());
+  plan.has_roots.assign(skeleton.root_count(), false);
   std::vector<NodePart>& parts = plan.parts;
   for (std::size_t node = 0; node < parts.size(); ++node) {
     NodePart& part = parts[node];
     const double end_radius = radius(skeleton, node, thinnest);
-    part.sides = sides_within(side_count(skeleton.diameter[node], greatest, options), end_radius, tolerance);
+    const bool goes_on =
+        !skeleton.is_root(node) && skeleton.axis[node] == skeleton.axis[skeleton.parent[node]];
+    part.axis_sides = goes_on ? parts[skeleton.parent[node]].axis_sides
+                              : side_count(skeleton.diameter[node], greatest, options);
+    part.sides = sides_within(part.axis_sides, end_radius, tolerance);
     part.sphere_sides = part.sides;
     part.has_sphere = is_kept[node] && end_radius > tolerance;
+    part.is_tip = tolerance <= 0.0;
     part.along = kUp;
+    part.root = static_cast<std::uint32_t>(node);
     if (skeleton.is_root(node)) {
       part.side = any_perpendicular(kUp);
-      part.is_foot = true;
       continue;
     }
     const std::uint32_t parent = skeleton.parent[node];
     const double length = skeleton.length(node);
-    const bool goes_on = skeleton.axis[node] == skeleton.axis[parent];
     part.base_radius = goes_on ? radius(skeleton, parent, thinnest) : end_radius;
     part.along = normalized_or(skeleton.along(node), parts[parent].along, thinnest);
     part.side = transported(parts[parent].side, parts[parent].along, part.along);
     NodePart& below = parts[parent];
-    if (part.along.y < 0.0) below.is_foot = false;  // it has roots
-    if (goes_on && tolerance <= 0.0 && below.sides >= kSidesRounded &&
-        glm::dot(below.along, part.along) < kStraight)
+    part.root = below.root;
+    if (skeleton.is_root(parent) && part.along.y < 0.0) plan.has_roots[parent] = true;
+    if (goes_on) below.is_tip = false;
+    if (goes_on && tolerance <= 0.0 && glm::dot(below.along, part.along) < kStraight)
       below.sphere_sides = 2 * below.sides;
     part.v = length / (std::numbers::pi * (part.base_radius + end_radius));
     if (goes_on) part.v += parts[parent].v;
@@ -108,17 +124,20 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
 /// Writes the parts of one node into their place in the mesh.
 class PartBuilder {
  public:
-  PartBuilder(const Skeleton& skeleton, std::size_t node, const std::vector<NodePart>& parts,
-              double end_radius, Mesh& mesh)
+  PartBuilder(const Skeleton& skeleton, std::size_t node, const ConesPlan& plan, double end_radius,
+              Mesh& mesh)
       : skeleton_(skeleton),
         node_(static_cast<std::uint32_t>(node)),
-        part_(parts[node]),
+        part_(plan.parts[node]),
         end_radius_(end_radius),
         mesh_(mesh),
         vertex_(part_.first_vertex),
         triangle_(part_.first_triangle) {
+    // What itself grows down there is not cut off.
+    const double ground = skeleton.position[part_.root].y;
     const std::size_t below = skeleton.is_root(node) ? node : skeleton.parent[node];
-    if (parts[below].is_foot) ground_ = skeleton.position[below].y;
+    const bool is_above = std::min(skeleton.position[below].y, skeleton.position[node].y) >= ground;
+    if (!plan.has_roots[part_.root] && is_above) ground_ = ground;
   }
 
   void build() {
@@ -231,7 +250,7 @@ Mesh cones_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   const double thinnest = thinnest_radius(skeleton);
   parallel_for(plan.parts.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t node = begin; node < end; ++node) {
-      PartBuilder(skeleton, node, plan.parts, radius(skeleton, node, thinnest), mesh).build();
+      PartBuilder(skeleton, node, plan, radius(skeleton, node, thinnest), mesh).build();
     }
   });
   return mesh;
