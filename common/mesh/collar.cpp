@@ -1,6 +1,7 @@
 #include "common/mesh/collar.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace ramify {
 namespace {
@@ -17,6 +18,15 @@ constexpr double kFreeShare = 0.95;
 
 // The greatest of t^2 - t^3.
 constexpr double kGreatestBow = 4.0 / 27.0;
+
+// In radii of the parent: a place about the fork that its facets and its tip surround in all directions.
+constexpr double kWellInside = 0.7;
+
+// In radii of the parent: so far out from its axis begins what is hidden in it all round.
+constexpr double kHidden = 0.6;
+
+// The facets of a round tip pass its ball inside by this share, at its end.
+constexpr double kTipInset = 0.15;
 
 // Folded lines spread so much less each time; after so many times the whole collar does not.
 constexpr double kLessSpread = 0.6;
@@ -48,30 +58,38 @@ double exit_length(const Fork& fork, const Lateral& lateral, const Vec3& outward
 }  // namespace
 
 SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback) {
-  double height = glm::dot(point - fork.center, fork.along);
-  if (fork.is_ground) height = std::max(height, 0.0);
-  // The parent's line about the fork, and its tangent.
-  const double run = std::max(glm::length(fork.run), 0.1);
-  const double h = height / run;
-  Vec3 axis = fork.center + fork.run * h;
-  Vec3 tangent = fork.run;
-  if (std::abs(h) < fork.reach) {
-    axis += fork.bend * (0.25 * h * h / fork.reach);
-    tangent += fork.bend * (0.5 * h / fork.reach);
-  } else {
-    axis += fork.bend * (0.5 * std::abs(h) - 0.25 * fork.reach);
-    tangent += fork.bend * (h > 0.0 ? 0.5 : -0.5);
+  Vec3 axis(fork.line[0].position);
+  Vec3 tangent = fork.along;
+  double radius = fork.line[0].radius;
+  double least = std::numeric_limits<double>::infinity();
+  bool is_tip = false;
+  bool is_beyond = false;  // an end that is no tip
+  for (std::size_t i = 1; i < fork.line.size(); ++i) {
+    const Vec3 from(fork.line[i - 1].position);
+    const Vec3 step = Vec3(fork.line[i].position) - from;
+    const double length2 = glm::dot(step, step);
+    if (length2 <= 0.0) continue;
+    const double share = glm::dot(point - from, step) / length2;
+    const double t = std::clamp(share, 0.0, 1.0);
+    const Vec3 apart = point - from - step * t;
+    const double distance2 = glm::dot(apart, apart);
+    if (distance2 >= least) continue;
+    least = distance2;
+    axis = from + step * t;
+    tangent = step;
+    radius = glm::mix(double{fork.line[i - 1].radius}, double{fork.line[i].radius}, t);
+    const bool is_after = i + 1 == fork.line.size() && share > 1.0;
+    is_tip = is_after && fork.has_tip;
+    is_beyond = (i == 1 && share < 0.0) || (is_after && !fork.has_tip);
   }
-  const double length2 = glm::dot(tangent, tangent);
   const auto across = [&](const Vec3& v) {
-    return length2 > 1e-12 ? v - tangent * (glm::dot(v, tangent) / length2) : v;
+    return v - tangent * (glm::dot(v, tangent) / glm::dot(tangent, tangent));
   };
-  const Vec3 aside = across(point - axis);
+  const Vec3 aside = is_beyond ? across(point - axis) : point - axis;
   const double distance = glm::length(aside);
   const Vec3 normal =
       distance > 1e-9 ? aside / distance : normalized_or(across(fallback), any_perpendicular(fork.along));
-  const double widening = height > 0.0 ? fork.widening_above : fork.widening_below;
-  const double radius = std::max(fork.radius + widening * height, 0.1 * fork.radius);
+  if (is_tip) radius *= 1.0 - kTipInset * std::max(0.0, glm::dot(normal, glm::normalize(tangent)));
   return {axis + normal * (radius * fork.inset), normal};
 }
 
@@ -105,8 +123,11 @@ CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& out
   const double room = (longest - exit) / (kRise * lateral.radius);
   const double lag = (exit - middle) / (kLag * lateral.radius);
   const double outside = spread * std::clamp(std::min(room, 2.0 - lag), 0.0, 1.0);
+  const double fork_radius = fork.radius * fork.inset;
+  const Vec3 inside = fork.center + outwards * std::min(lateral.radius, kWellInside * fork_radius) +
+                      lateral.along * (kHidden * std::min(exit, fork_radius));
   CollarLine line;
-  line.foot = glm::mix(edge + lateral.along * (0.4 * rise), foot.position, outside);
+  line.foot = glm::mix(inside, foot.position, outside);
   line.crotch = glm::mix(edge + lateral.along * (0.7 * rise), crotch.position, outside);
   line.top = edge + lateral.along * rise + lateral.bow * (t * t * t - t * t);
   line.foot_normal = normalized_or(glm::mix(outwards, foot.normal, outside), outwards);

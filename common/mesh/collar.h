@@ -7,21 +7,18 @@
 #include <vector>
 
 #include "common/base/geometry.h"
+#include "common/mesh/centre_line.h"
 
 namespace ramify {
 
 /// The parent's wood around the place where a lateral leaves it.
 struct Fork {
-  Vec3 center;              // where the lateral's own line begins
-  Vec3 along = kUp;         // unit, of the parent there
-  Vec3 run{0.0, 1.0, 0.0};  // half the sum of the parent's directions below and above
-  Vec3 bend{0.0};           // their difference
-  double reach = 0.0;       // the bend's, metres each way
-  double radius = 0.0;
-  double widening_below = 0.0;  // radius a metre along the parent
-  double widening_above = 0.0;
-  double inset = 1.0;      // share of the radius that lies within the parent's facets all round
-  bool is_ground = false;  // the parent begins here: nothing lies below
+  Vec3 center;                  // where the lateral's own line begins
+  Vec3 along = kUp;             // unit, of the parent there
+  double radius = 0.0;          // of the parent there
+  double inset = 1.0;           // share of the radius that lies within the parent's facets all round
+  std::vector<LinePoint> line;  // of the parent, below and above; not empty
+  bool has_tip = false;         // the line ends in the parent's tip
 };
 
 struct SurfacePoint {

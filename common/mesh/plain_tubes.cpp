@@ -310,7 +310,7 @@ void PlainTubeWriter::write(Group& group) {
     along_before = along_after;
     at = next;
   }
-  const Lanes tip = kPointedTipLength * at.radius;
+  const Lanes tip = kTipLength * at.radius;
   const Lanes share = all(std::numbers::sqrt2_v<float> / 2.0f);
   out.add_tip(at.position + frames.along * tip,
               around(frames.along * share, frames.side * share, frames.across * share,

@@ -7,6 +7,7 @@
 #include "common/base/parallel.h"
 #include "common/mesh/detail.h"
 #include "common/mesh/plain_tubes.h"
+#include "common/mesh/sharp_turns.h"
 #include "common/mesh/tube_plan.h"
 #include "common/mesh/wood.h"
 
@@ -15,10 +16,9 @@ namespace {
 
 constexpr std::size_t kGrain = 256;
 
-// Of a round tip, in radii of its branch: where its ring stands, how wide it is, and where it ends.
+// Of a round tip, in radii of its branch: where its ring stands and how wide it is.
 constexpr float kTipRing = 0.6f;
 constexpr float kTipRingRadius = 0.75f;
-constexpr float kTipLength = 1.0f;
 
 /// Unit vectors along a tube's line and across it.
 struct Frame {
@@ -84,6 +84,7 @@ class TubeWriter {
       write_tip<0>();
     }
     if (tube_->is_closed) write_flat_end();
+    if (tube_->is_low) lay_on_ground(index);
   }
 
  private:
@@ -278,7 +279,7 @@ class TubeWriter {
   void write_tip() {
     const LinePoint& last = points_.back();
     const std::uint32_t sides = side_count<Sides>();
-    float length = tube_->is_pointed ? 0.0f : kPointedTipLength * last.radius;
+    const float length = tube_->is_pointed ? 0.0f : kTipLength * last.radius;
     if (tube_->has_round_tip()) {
       const float v = v_;
       LinePoint ring = last;
@@ -288,7 +289,6 @@ class TubeWriter {
       write_ring<Sides>(ring, 1.0f, last.node);
       join<Sides>(vertex_ - 2 * (sides + 1), vertex_ - (sides + 1), sides);
       v_ = v;
-      length = kTipLength * last.radius;
     }
     const auto ring = static_cast<std::uint32_t>(vertex_ - (sides + 1));
     const Vec3f apex = last.position + frame_.along * length;
@@ -330,6 +330,20 @@ class TubeWriter {
     }
   }
 
+  /// What grows on the ground is flat below: a tube that lies there, and what of a lateral at the root is in
+  /// the trunk's foot. One that grows down there itself stays as it is.
+  void lay_on_ground(std::size_t index) {
+    const Axes& axes = *plan_.axes;
+    std::size_t trunk = index;
+    while (!axes.list[trunk].is_trunk()) trunk = axes.list[trunk].bearer;
+    const float ground = axes.points[axes.list[trunk].first].position.y;
+    for (const Knot& knot : knots_) {
+      if (knot.position.y < ground) return;
+    }
+    for (std::size_t v = tube_->first_vertex; v < vertex_; ++v)
+      mesh_.positions[v].y = std::max(mesh_.positions[v].y, ground);
+  }
+
   const TubePlan& plan_;
   Mesh& mesh_;
   const Tube* tube_ = nullptr;
@@ -346,6 +360,12 @@ class TubeWriter {
   float v_ = 0.0f;
   float from_base_ = 0.0f;
 };
+
+Axes axes_without_sharp_turns(const Skeleton& skeleton) {
+  Axes axes = find_axes(skeleton);
+  part_sharp_turns(axes);
+  return axes;
+}
 
 }  // namespace
 
@@ -367,7 +387,7 @@ Mesh sweep(const TubePlan& plan, Mesh memory) {
 
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh memory) {
   if (skeleton.internode_count() == 0) return {};
-  const Axes axes = find_axes(skeleton);
+  const Axes axes = axes_without_sharp_turns(skeleton);
   const TubePlan plan = plan_tubes(skeleton, axes, options);
   const std::size_t budget = triangle_budget(plan.triangle_count, options);
   if (plan.triangle_count <= budget) return sweep(plan, std::move(memory));
@@ -379,7 +399,7 @@ Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, Mesh me
 }
 
 Mesh smooth_mesh(const Skeleton& skeleton, const MesherOptions& options, double tolerance) {
-  const Axes axes = find_axes(skeleton);
+  const Axes axes = axes_without_sharp_turns(skeleton);
   return sweep(plan_tubes(skeleton, axes, options, tolerance), {});
 }
 

@@ -1,6 +1,7 @@
 #include "common/mesh/tube_plan.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "common/base/parallel.h"
@@ -32,6 +33,9 @@ constexpr float kLeastCollar = 0.03f;
 
 // In radii of a lateral: its first knot is so far outside its parent, so that its collar has room.
 constexpr float kClear = 1.2f;
+
+// A collar knows so many of its parent's knots on either side.
+constexpr int kKnotsAside = 4;
 
 // A collar begins by so much inside the facets of the parent.
 constexpr double kWithinFacets = 0.97;
@@ -161,8 +165,12 @@ class Planner {
     }
     tube.rings = static_cast<std::uint32_t>(rings) + tube.collar + (tube.has_round_tip() ? 1 : 0) -
                  (tube.is_pointed ? 1 : 0);
-    tube.is_plain = plan_.line == CentreLine::polyline && tube.sides == 3 && tube.collar == 0 &&
-                    !tube.is_closed && !tube.is_pointed && knots_.size() == axis.count && rings == axis.count;
+    tube.is_low = std::any_of(knots_.begin(), knots_.end(), [&](const Knot& knot) {
+      return knot.position.y - kTipLength * knot.radius < plan_.highest_ground;
+    });
+    tube.is_plain = !tube.is_low && plan_.line == CentreLine::polyline && tube.sides == 3 &&
+                    tube.collar == 0 && !tube.is_closed && !tube.is_pointed && knots_.size() == axis.count &&
+                    rings == axis.count;
     // As yet as many as there are: where they begin is known when all tubes are planned.
     tube.first_vertex = vertex_count(tube);
     tube.first_triangle = triangle_count(tube);
@@ -255,6 +263,9 @@ TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOpti
   plan.tolerance = tolerance;
   plan.tubes.resize(axes.list.size());
   plan.rings.assign(axes.points.size(), 0);
+  plan.highest_ground = -std::numeric_limits<float>::infinity();
+  for (std::size_t root = 0; root < skeleton.root_count(); ++root)
+    plan.highest_ground = std::max(plan.highest_ground, static_cast<float>(skeleton.position[root].y));
   find_flares(plan, skeleton);
   const std::vector<bool> is_kept = kept_axes(skeleton, tolerance);
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -302,55 +313,44 @@ Fork fork_at(const TubePlan& plan, std::size_t lateral) {
   const std::uint32_t base = axes.list[lateral].base;
   const Axis& bearer = axes.list[axes.list[lateral].bearer];
   const Tube& tube = plan.tubes[axes.list[lateral].bearer];
-  const auto position = [&](std::uint32_t point) { return Vec3(axes.points[point].position); };
-  const auto radius = [&](std::uint32_t point) { return double{axes.points[point].radius}; };
+  const auto is_knot = [&](std::uint32_t point) { return point == bearer.first || plan.rings[point] > 0; };
   Fork fork;
-  fork.center = position(base);
-  fork.radius = radius(base);
+  fork.inset = kWithinFacets * std::cos(std::numbers::pi / tube.sides);
 
   // The bearer's knots around the point: it may have been left out itself.
-  const bool is_base = base == bearer.first;
-  std::uint32_t below = base;
-  while (below != bearer.first && (below == base || plan.rings[below] == 0)) --below;
-  std::uint32_t above = base + 1;
-  while (above != bearer.end() && plan.rings[above] == 0) ++above;
-  const bool ends = above == bearer.end();
-  const bool is_knot = is_base || plan.rings[base] > 0;
-  const double inscribed = std::cos(std::numbers::pi / tube.sides);
-  fork.inset = kWithinFacets * inscribed;
-
-  if (!is_knot && !ends) {  // on the straight stretch between two knots
-    const Vec3 from = position(below);
-    const Vec3 step = position(above) - from;
-    const double length2 = std::max(glm::dot(step, step), 1e-24);
-    const double t = std::clamp(glm::dot(fork.center - from, step) / length2, 0.0, 1.0);
-    fork.center = from + step * t;
-    fork.along = fork.run = normalized_or(step, kUp, 1e-12);
-    fork.radius = glm::mix(radius(below), radius(above), t);
-    fork.widening_above = fork.widening_below = (radius(above) - radius(below)) / std::sqrt(length2);
-    return fork;
+  std::uint32_t first = base;
+  for (int left = kKnotsAside; first != bearer.first && left > 0;) left -= is_knot(--first);
+  while (!is_knot(first)) --first;
+  std::vector<Knot> knots;
+  int beyond = 0;
+  std::uint32_t point = first;
+  for (; point != bearer.end() && beyond < kKnotsAside; ++point) {
+    if (!is_knot(point)) continue;
+    append_knot(knots, axes, point);
+    if (knots.size() > 1) knots.back().rings = plan.rings[point];
+    beyond += point > base;
   }
-  const Vec3 before = position(base) - position(below);
-  const double length_before = glm::length(before);
-  const Vec3 after = ends ? Vec3(0.0) : position(above) - position(base);
-  const double length_after = glm::length(after);
-  const Vec3 into = normalized_or(before, normalized_or(after, kUp, 1e-12), 1e-12);
-  const Vec3 out = normalized_or(after, into, 1e-12);
-  fork.run = 0.5 * (into + out);
-  fork.bend = out - into;
-  fork.along = normalized_or(fork.run, into);
-  fork.is_ground = is_base;
-  if (length_before > 0.0) fork.widening_below = (fork.radius - radius(below)) / length_before;
-  // A bearer that ends here closes in a tip of about its own width.
-  fork.widening_above = length_after > 0.0 ? (radius(above) - fork.radius) / length_after : -0.7;
-  if (plan.line == CentreLine::polyline && plan.rings[base] > 1) {
-    const bool is_beside_collar = below == bearer.first && tube.collar > 0;
-    const double room = is_beside_collar ? kRoomBesideCollar : 1.0;
-    fork.reach = bend_reach(static_cast<float>(fork.radius), static_cast<float>(room * length_before),
-                            static_cast<float>(length_after));
-    fork.center += fork.bend * (0.25 * fork.reach);
-  } else if (plan.line == CentreLine::catmull_rom) {
-    fork.reach = std::min(length_before, length_after);
+  if (first == bearer.first && tube.collar > 0 && knots.size() > 1) knots[1].room *= kRoomBesideCollar;
+  trace_line(knots, plan.line, fork.line);
+  fork.has_tip = point == bearer.end();
+
+  // The place on that line.
+  const Vec3 node(axes.points[base].position);
+  double least = std::numeric_limits<double>::infinity();
+  fork.center = Vec3(fork.line[0].position);
+  fork.radius = fork.line[0].radius;
+  fork.along = Vec3(fork.line[0].along);
+  for (std::size_t i = 1; i < fork.line.size(); ++i) {
+    const Vec3 from(fork.line[i - 1].position);
+    const Vec3 step = Vec3(fork.line[i].position) - from;
+    const double length2 = std::max(glm::dot(step, step), 1e-24);
+    const double t = std::clamp(glm::dot(node - from, step) / length2, 0.0, 1.0);
+    const double distance = glm::distance(node, from + step * t);
+    if (distance >= least) continue;
+    least = distance;
+    fork.center = from + step * t;
+    fork.radius = glm::mix(double{fork.line[i - 1].radius}, double{fork.line[i].radius}, t);
+    fork.along = normalized_or(glm::mix(Vec3(fork.line[i - 1].along), Vec3(fork.line[i].along), t), kUp);
   }
   return fork;
 }

@@ -18,8 +18,8 @@ namespace ramify {
 // The part of a lateral's first stretch that its first bend may count on: the collar takes the rest.
 constexpr float kRoomBesideCollar = 0.5f;
 
-// How far a tip that is a cone reaches beyond its last node, in radii.
-constexpr float kPointedTipLength = 2.0f;
+// How far a tip, round or a cone, reaches beyond its last node, in radii.
+constexpr float kTipLength = 1.0f;
 
 // Cosine beyond which a line turns back on itself, and frames are carried on as they are.
 constexpr float kHalfTurn = -0.9999f;
@@ -37,14 +37,16 @@ struct Tube {
   std::size_t first_triangle = 0;
 
   bool is_plain = false;  // see PlainTubeWriter
+  bool is_low = false;    // reaches down to the ground
 
-  bool has_round_tip() const { return !is_pointed && sides >= 6; }
+  bool has_round_tip() const { return !is_pointed && sides > 3; }
 };
 
 struct TubePlan {
   const Axes* axes = nullptr;
   CentreLine line = CentreLine::polyline;
   double flare = 0.0;
+  float highest_ground = 0.0f;     // of the trees' roots, metres
   double tolerance = 0.0;          // metres
   BulkVector<std::uint8_t> rings;  // of each point on its axis' line; 0: left out
   std::vector<Tube> tubes;         // of each axis

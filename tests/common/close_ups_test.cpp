@@ -1,5 +1,6 @@
-// What would be seen from near: tips, the joints of bends.
+// What would be seen from near: tips, the joints of bends, what lies on the ground.
 #include <algorithm>
+#include <limits>
 
 #include "common/mesh/mesher.h"
 #include "common/skeleton/passes.h"
@@ -30,6 +31,22 @@ double reach(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
   return farthest;
 }
 
+float lowest(const Mesh& mesh) {
+  float low = std::numeric_limits<float>::infinity();
+  for (const Vec3f& p : mesh.positions) low = std::min(low, p.y);
+  return low;
+}
+
+std::size_t flipped_triangles(const Mesh& mesh) {
+  std::size_t flipped = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3f& a = mesh.positions[i];
+    const Vec3f across = glm::cross(mesh.positions[j] - a, mesh.positions[k] - a);
+    flipped += glm::dot(mesh.normals[i] + mesh.normals[j] + mesh.normals[k], across) <= 0;
+  }
+  return flipped;
+}
+
 /// 1 m up and 1 m on in another direction, 0.2 m thick.
 Skeleton elbow(double turn_deg) {
   Skeleton s;
@@ -41,6 +58,15 @@ Skeleton elbow(double turn_deg) {
 }
 
 }  // namespace
+
+TEST_CASE("close-ups: tubes end in tips as long as half their width, those of three sides too") {
+  for (const int sides : {3, 4, 6, 12}) {
+    const Mesh mesh = build_mesh(pole(1), {.sides_min = sides, .sides_max = sides});
+    float highest = 0.0f;
+    for (const Vec3f& p : mesh.positions) highest = std::max(highest, p.y);
+    CHECK(highest == Approx(1.05f));
+  }
+}
 
 TEST_CASE("close-ups: between the cones of a bend no notch is left open") {
   for (const int sides : {3, 4, 5, 8, 12}) {
@@ -82,6 +108,81 @@ TEST_CASE("close-ups: the tips of cones are round, those of twigs of few sides t
       }
       INFO(sides << " sides, " << angle_deg << " degrees");
       CHECK(farthest > 0.05f * (sides < 5 ? 0.92f : 0.96f));
+    }
+  }
+}
+
+TEST_CASE(
+    "close-ups: wood near the ground is flat below, by cones and by tubes, what grows down is not cut") {
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+    for (const double radius : {0.005, 0.02, 0.1}) {
+      Skeleton s = pole(3);
+      add_node(s, {0.4, 0.01, 0}, 0, 2.0 * radius);  // a lateral at the root that lies
+      add_node(s, {0.8, 0.0, 0.1}, 4, 2.0 * radius);
+      s.position[1].y = 0.05;  // half as high as it is thick
+      s.axis = {0, 0, 0, 0, 1, 1};
+      const Mesh mesh = build_mesh(s, {.method = method});
+      INFO((method == MeshMethod::cones ? "cones, " : "smooth, ") << radius << " m");
+      CHECK(lowest(mesh) >= 0.0f);
+      CHECK(flipped_triangles(mesh) == 0);
+      s.position[5].y = -0.3;
+      CHECK(lowest(build_mesh(s, {.method = method})) < -0.29f);
+    }
+  }
+}
+
+TEST_CASE("close-ups: a collar at the end of its parent begins within the parent's tip") {
+  const Mesh parent = build_mesh(elbow(0.0), {.root_flare = 0.0});
+  for (const double angle_deg : {60.0, 100.0, 125.0, 145.0, 165.0}) {
+    for (const double diameter : {0.06, 0.12, 0.18}) {
+      Skeleton s = elbow(0.0);
+      const Vec3 along(std::sin(radians(angle_deg)), std::cos(radians(angle_deg)), 0);
+      add_node(s, Vec3(0, 2, 0) + along, 2, diameter);
+      s.axis = {0, 0, 0, 1};
+      const Mesh mesh = build_mesh(s, {.root_flare = 0.0});
+      INFO(angle_deg << " degrees, " << diameter << " m");
+      // The collar's first ring follows upon the parent; a ring ends where u is 1.
+      for (std::size_t v = parent.vertex_count(); v < mesh.vertex_count(); ++v) {
+        const Vec3 p(mesh.positions[v]);
+        const Vec3 from = p - Vec3(0, 2, 0);
+        if (from.y > 0.0) CHECK(reach(parent, {0, 2, 0}, glm::normalize(from)) > glm::length(from));
+        if (mesh.uvs[v].x == 1.0f) break;
+      }
+    }
+  }
+}
+
+TEST_CASE("close-ups: a collar begins within a parent that bends, by either centre line") {
+  for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
+    for (const double bend_deg : {20.0, 40.0, 60.0}) {
+      for (const double toward_deg : {0.0, 60.0, 120.0, 180.0}) {
+        Skeleton s;
+        Vec3 along = kUp;
+        add_node(s, {0, 0, 0}, kNoParent, 0.2);
+        for (std::uint32_t i = 0; i < 6; ++i) {
+          // To and fro, so that the curve swings out to both sides.
+          const double lean = i % 2 == 0 ? 0.5 * radians(bend_deg) : -0.5 * radians(bend_deg);
+          along = Vec3(std::sin(lean), std::cos(lean), 0);
+          add_node(s, s.position[i] + along * 0.5, i, 0.2);
+        }
+        s.axis.assign(7, 0);
+        const MesherOptions options{.centre_line = line, .root_flare = 0.0};
+        const Mesh parent = build_mesh(s, options);
+        const double toward = radians(toward_deg);
+        const Vec3 center = s.position[3];
+        add_node(s, center + Vec3(std::cos(toward), 0.3, std::sin(toward)), 3, 0.14);
+        s.axis.push_back(1);
+        const Mesh mesh = build_mesh(s, options);
+        INFO((line == CentreLine::polyline ? "polyline, " : "catmull-rom, ")
+             << bend_deg << " degrees, towards " << toward_deg);
+        std::size_t feet = 0;
+        for (std::size_t v = parent.vertex_count(); v < mesh.vertex_count(); ++v, ++feet) {
+          const Vec3 from = Vec3(mesh.positions[v]) - center;
+          CHECK(reach(parent, center, glm::normalize(from)) > glm::length(from));
+          if (mesh.uvs[v].x == 1.0f) break;
+        }
+        CHECK(feet >= 4);
+      }
     }
   }
 }

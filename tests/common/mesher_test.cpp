@@ -134,12 +134,12 @@ TEST_CASE("mesher: the meshes of all trees are sound and face outwards") {
   }
 }
 
-TEST_CASE("mesher: no triangle faces against its corners' normals, in narrow forks and tight bends neither") {
+TEST_CASE("mesher: no triangle faces against its corners' normals, in narrow forks and sharp turns neither") {
   const EngineRegistry& registry = test::both_engines();
   std::vector<std::pair<std::string, Skeleton>> trees;
   trees.emplace_back("slim", slim_tree(6));
-  for (const char* preset : {"s4-fig6", "decurrent", "weeping", "columnar", "xm12-a", "xm12-b", "xm12-fig5",
-                             "x18-d10-a60", "x18-d15-a90"})
+  for (const char* preset : {"s4-fig6", "decurrent", "weeping", "columnar", "xm12-a", "xm12-b", "xm12-e",
+                             "xm12-f", "xm12-i", "xm12-m", "xm12-fig5", "x18-d10-a60", "x18-d15-a90"})
     trees.emplace_back(preset, living(load_job(registry, preset).run({}).skeleton));
   for (const auto& [name, tree] : trees) {
     for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
