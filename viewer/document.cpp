@@ -8,6 +8,7 @@
 #include "common/config/differences.h"
 #include "common/config/presets.h"
 #include "common/config/toml_reader.h"
+#include "viewer/scene.h"
 
 namespace ramify {
 namespace {
@@ -50,6 +51,7 @@ Document::Document(Opened opened, std::function<void()> notify)
   if (opened.mesh) {
     product_ = std::make_unique<Product>();
     product_->mesh = std::move(*opened.mesh);
+    product_->outline = outline_of(product_->mesh.positions);
     for (const Vec3f& position : product_->mesh.positions) product_->box.include(Vec3(position));
     return;
   }
@@ -173,8 +175,9 @@ bool Document::update(double now, bool is_at_rest) {
   // The last tree's, until the fine one is measured.
   if (!made->numbers && product_) made->numbers = product_->numbers;
   // While drafts follow each other; a tree that is looked at longer shall not hold memory twice.
-  if (product_ && made->is_draft) workshop_.reuse(std::move(product_->mesh));
-  product_ = std::move(made);
+  const bool is_mesh_reused = made->is_draft;
+  product_.swap(made);
+  if (made) workshop_.retire(std::move(made), is_mesh_reused);
   product_edit_time_ = edit_time;
   if (at_ && *at_ >= product_->last_step) at_.reset();
   return true;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "common/base/errors.h"
 #include "common/config/presets.h"
@@ -47,9 +48,21 @@ GlTexture texture_of(const Image& image) {
   return texture;
 }
 
+/// Trees that are looked at for themselves first, those that sweeps begin with last.
+std::vector<const Preset*> presets_in_order() {
+  std::vector<const Preset*> order;
+  for (const Preset& preset : presets()) order.push_back(&preset);
+  const auto rank = [](const Preset* preset) {
+    return preset->group == "species" ? 0 : preset->group == "experiments" ? 2 : 1;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const Preset* a, const Preset* b) { return rank(a) < rank(b); });
+  return order;
+}
+
 }  // namespace
 
-Gallery::Gallery() : workshop_(Window::wake) {}
+Gallery::Gallery(Pane pane) : presets_(presets_in_order()), pane_(std::move(pane)), workshop_(Window::wake) {}
 
 float Gallery::height() {
   constexpr float kPadding = 16.0f;
@@ -57,12 +70,9 @@ float Gallery::height() {
          ImGui::GetStyle().ScrollbarSize;
 }
 
-void Gallery::take() {
-  const std::unique_ptr<Product> product = workshop_.take();
-  if (!product) return;
-  Thumbnail& thumbnail = thumbnails_[making_];
-  making_.clear();
-  if (!product->error.empty()) return;
+void Gallery::draw() {
+  if (!product_) product_ = workshop_.take();
+  if (!product_) return;
   const double aspect = static_cast<double>(kPictureWidth) / kPictureHeight;
   const int fineness = std::max(2, static_cast<int>(std::ceil(ui_scale())));
   Orbit orbit;
@@ -70,9 +80,19 @@ void Gallery::take() {
   orbit.elevation_deg = 4.0;
   ShowOptions show;
   show.style = RenderStyle::schematic;
-  pane_.picture({{product.get(), std::nullopt}}, show, framed(orbit, framing_points(*product), aspect),
-                fineness * kPictureWidth, fineness * kPictureHeight, Quality::finest);
-  thumbnail.texture = texture_of(pane_.image());
+  Thumbnail& thumbnail = thumbnails_[making_];
+  if (product_->error.empty()) {
+    pane_.picture({{product_.get(), std::nullopt}}, show, framed(orbit, framing_points(*product_), aspect),
+                  fineness * kPictureWidth, fineness * kPictureHeight, Quality::finest);
+    if (pane_.is_unfinished()) return;
+    thumbnail.texture = texture_of(pane_.image());
+  }
+  making_.clear();
+  workshop_.retire(std::move(product_), false);
+}
+
+bool Gallery::is_drawing() const {
+  return product_ && last_frame_ == ImGui::GetFrameCount();
 }
 
 void Gallery::make_next(Workbench& bench) {
@@ -88,12 +108,13 @@ void Gallery::make_next(Workbench& bench) {
 }
 
 void Gallery::show(Workbench& bench, bool is_busy) {
-  take();
+  last_frame_ = ImGui::GetFrameCount();
+  draw();
   wanted_.clear();
   ImGui::BeginChild("gallery", {0.0f, 0.0f}, false, ImGuiWindowFlags_HorizontalScrollbar);
-  for (const Preset& preset : presets()) {
-    const std::string name(preset.name);
-    if (&preset != &presets().front()) ImGui::SameLine();
+  for (const Preset* preset : presets_) {
+    const std::string name(preset->name);
+    if (preset != presets_.front()) ImGui::SameLine();
     ImGui::PushID(name.c_str());
     ImGui::BeginGroup();
     const ImVec2 size(ui_scale() * kPictureWidth, ui_scale() * kPictureHeight);
@@ -112,7 +133,7 @@ void Gallery::show(Workbench& bench, bool is_busy) {
     }
     if (ImGui::IsItemHovered()) {
       list.AddRect(low, high, ImGui::GetColorU32(ImGuiCol_SliderGrab), 0.0f, 0, 2.0f);
-      const std::string_view about = summary(preset);
+      const std::string_view about = summary(*preset);
       ImGui::SetTooltip("%s\n%.*s\nShift: beside the other tree", name.c_str(),
                         static_cast<int>(about.size()), about.data());
     }

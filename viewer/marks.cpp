@@ -1,6 +1,7 @@
 #include "viewer/marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -143,6 +144,27 @@ Marks marks_of(const VoxelLayer& layer, bool is_slice) {
   return marks;
 }
 
+/// How much the normals turn along the edges at each position, on average.
+std::vector<float> bends_of(const VolumeSurface& surface) {
+  std::vector<float> bends(surface.positions.size(), 0.0f);
+  std::vector<float> counts(surface.positions.size(), 0.0f);
+  for (const std::array<std::uint32_t, 3>& triangle : surface.triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t from = triangle[corner];
+      const std::uint32_t to = triangle[(corner + 1) % 3];
+      const float length = glm::distance(surface.positions[from], surface.positions[to]);
+      if (length <= 0.0f) continue;
+      const float bend = glm::distance(surface.normals[from], surface.normals[to]) / length;
+      for (const std::uint32_t end : {from, to}) {
+        bends[end] += bend;
+        counts[end] += 1.0f;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < bends.size(); ++i) bends[i] /= std::max(counts[i], 1.0f);
+  return bends;
+}
+
 }  // namespace
 
 void Marks::add(const Vec3& start, const Vec3& end, const Color& color) {
@@ -175,7 +197,9 @@ std::vector<Veil> veils_of(const Product& product) {
     const Color color = paler(categorical_color(number++));
     try {
       VolumeSurface surface = surface_of(*volume, kVeilVoxels);
-      if (!surface.triangles.empty()) veils.push_back({std::move(surface), color});
+      if (surface.triangles.empty()) continue;
+      std::vector<float> bends = bends_of(surface);
+      veils.push_back({std::move(surface), std::move(bends), color});
     } catch (const InputError&) {
       // The check has told.
     }

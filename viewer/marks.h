@@ -39,6 +39,7 @@ Marks marks_of(const Product& product, const std::string& name, bool is_slice);
 /// The surface of a volume, to be seen through.
 struct Veil {
   VolumeSurface surface;
+  std::vector<float> bends;  // of the surface at each position: 1 over its radius, 0 where it is flat, 1/m
   Color color;
 };
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "common/mesh/palette.h"
 #include "viewer/theme.h"
@@ -47,38 +49,61 @@ void explain(const MetricInfo& info, const std::vector<std::optional<double>>& v
   ImGui::PopStyleColor();
 }
 
-void metric_row(const MetricInfo& info, const Workbench& bench) {
+/// A metric of each tree, and what tells them apart.
+struct MetricRow {
+  const MetricInfo* info;
   std::vector<std::optional<double>> values;
-  for (std::size_t index = 0; index < bench.seats.size(); ++index) {
-    const Numbers* numbers = numbers_of_seat(bench, index);
-    values.push_back(numbers == nullptr ? std::nullopt : info.value(numbers->metrics));
+  std::vector<std::string> texts;
+};
+
+std::vector<MetricRow> rows_of(const Workbench& bench) {
+  std::vector<MetricRow> rows;
+  for (const MetricInfo& info : metric_table()) {
+    MetricRow& row = rows.emplace_back();
+    row.info = &info;
+    for (std::size_t index = 0; index < bench.seats.size(); ++index) {
+      const Numbers* numbers = numbers_of_seat(bench, index);
+      row.values.push_back(numbers == nullptr ? std::nullopt : info.value(numbers->metrics));
+      row.texts.push_back(text_of(info, row.values.back()));
+    }
+    if (row.values.size() < 2) continue;
+    const std::optional<double>& a = row.values[0];
+    const std::optional<double>& b = row.values[1];
+    row.texts.push_back(a && b ? number_text(difference(*a, *b), info.is_count, true) : "-");
   }
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(info.key.data(), info.key.data() + info.key.size());
-  if (ImGui::IsItemHovered()) explain(info, values);
-  for (const std::optional<double>& value : values) {
-    ImGui::TableNextColumn();
-    right_aligned(text_of(info, value));
-    if (ImGui::IsItemHovered()) explain(info, values);
-  }
-  if (values.size() < 2) return;
-  ImGui::TableNextColumn();
-  right_aligned(values[0] && values[1] ? number_text(difference(*values[0], *values[1]), info.is_count, true)
-                                       : "-");
+  return rows;
 }
 
-void metric_rows(Workbench& bench) {
-  const int columns = bench.seats.size() > 1 ? 4 : 2;
-  if (!ImGui::BeginTable("metrics", columns, ImGuiTableFlags_RowBg)) return;
-  const float width = ImGui::CalcTextSize("+0.0000").x;
-  ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
-  for (std::size_t index = 0; index < bench.seats.size(); ++index) {
-    ImGui::TableSetupColumn(seat_name(index).c_str(), ImGuiTableColumnFlags_WidthFixed, width);
+void metric_row(const MetricRow& row) {
+  const std::string_view name = row.info->key;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(name.data(), name.data() + name.size());
+  if (ImGui::IsItemHovered()) explain(*row.info, row.values);
+  for (const std::string& text : row.texts) {
+    ImGui::TableNextColumn();
+    right_aligned(text);
+    if (ImGui::IsItemHovered()) explain(*row.info, row.values);
   }
-  if (columns == 4) ImGui::TableSetupColumn("B - A", ImGuiTableColumnFlags_WidthFixed, width);
+}
+
+/// Numbers get as much room as the widest of them takes, and names the rest.
+void metric_rows(Workbench& bench) {
+  const std::vector<MetricRow> rows = rows_of(bench);
+  std::vector<std::string> titles;
+  for (std::size_t index = 0; index < bench.seats.size(); ++index) titles.push_back(seat_name(index));
+  if (titles.size() > 1) titles.emplace_back("B - A");
+  if (!ImGui::BeginTable("metrics", static_cast<int>(titles.size()) + 1, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
+  for (std::size_t column = 0; column < titles.size(); ++column) {
+    float width = ImGui::CalcTextSize(titles[column].c_str()).x;
+    for (const MetricRow& row : rows) {
+      width = std::max(width, ImGui::CalcTextSize(row.texts[column].c_str()).x);
+    }
+    ImGui::TableSetupColumn(titles[column].c_str(), ImGuiTableColumnFlags_WidthFixed, std::ceil(width));
+  }
   ImGui::TableHeadersRow();
-  for (const MetricInfo& info : metric_table()) metric_row(info, bench);
+  for (const MetricRow& row : rows) metric_row(row);
   ImGui::EndTable();
 }
 

@@ -26,11 +26,11 @@ void set_attribute(unsigned location, GLint components, GLenum type, GLuint adva
 
 }  // namespace
 
-Overlay::Overlay()
-    : line_("line", shaders::line_vertex(), shaders::line_fragment()),
-      dot_("dot", shaders::dot_vertex(), shaders::dot_fragment()),
-      square_("square", shaders::square_vertex(), shaders::line_fragment()),
-      veil_("veil", shaders::veil_vertex(), shaders::veil_fragment()) {}
+OverlayPrograms::OverlayPrograms()
+    : line("line", shaders::line_vertex(), shaders::line_fragment()),
+      dot("dot", shaders::dot_vertex(), shaders::dot_fragment()),
+      square("square", shaders::square_vertex(), shaders::line_fragment()),
+      veil("veil", shaders::veil_vertex(), shaders::veil_fragment()) {}
 
 void Overlay::load(const Product& product, const std::set<std::string>& names, bool are_slices) {
   batches_.clear();
@@ -72,6 +72,8 @@ void Overlay::load_veil(const Veil& veil) {
   set_attribute(0, 3, GL_FLOAT, 0);
   upload(batch.normals, std::span<const Vec3f>(veil.surface.normals));
   set_attribute(1, 3, GL_FLOAT, 0);
+  upload(batch.bends, std::span<const float>(veil.bends));
+  set_attribute(2, 1, GL_FLOAT, 0);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, batch.indices.id());
   const std::size_t byte_count = veil.surface.triangles.size() * sizeof(veil.surface.triangles[0]);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(byte_count), veil.surface.triangles.data(),
@@ -96,13 +98,13 @@ void Overlay::draw(const Camera& camera, const Viewport& viewport) const {
 const GlProgram& Overlay::program_of(MarkShape shape) const {
   switch (shape) {
     case MarkShape::dot:
-      return dot_;
+      return programs_->dot;
     case MarkShape::square:
-      return square_;
+      return programs_->square;
     case MarkShape::line:
       break;
   }
-  return line_;
+  return programs_->line;
 }
 
 void Overlay::draw_marks(const Batch& batch, const Camera& camera, const Viewport& viewport) const {
@@ -122,14 +124,15 @@ void Overlay::draw_marks(const Batch& batch, const Camera& camera, const Viewpor
 
 void Overlay::draw_veils(const Camera& camera) const {
   glDepthMask(GL_FALSE);
-  veil_.use();
-  veil_.set("world_to_clip", glm::mat4(camera.world_to_clip()));
+  programs_->veil.use();
+  programs_->veil.set("world_to_clip", glm::mat4(camera.world_to_clip()));
   const Vec3& eye = camera.is_parallel ? camera.axes.back : camera.eye;
-  veil_.set("eye", glm::vec4(Vec3f(eye), camera.is_parallel ? 0.0f : 1.0f));
-  veil_.set("middle", Vec3f(middle_));
-  veil_.set("reach", static_cast<float>(veil_reach_));
+  programs_->veil.set("eye", glm::vec4(Vec3f(eye), camera.is_parallel ? 0.0f : 1.0f));
+  programs_->veil.set("middle", Vec3f(middle_));
+  programs_->veil.set("reach", static_cast<float>(veil_reach_));
   for (const VeilBatch& batch : veils_) {
-    veil_.set("paint", Vec3f(linear_of(batch.color.r), linear_of(batch.color.g), linear_of(batch.color.b)));
+    programs_->veil.set("paint",
+                        Vec3f(linear_of(batch.color.r), linear_of(batch.color.g), linear_of(batch.color.b)));
     glBindVertexArray(batch.vertices.id());
     glDrawElements(GL_TRIANGLES, batch.count, GL_UNSIGNED_INT, nullptr);
   }

@@ -1,8 +1,10 @@
 // Marks and veils over a tree, drawn with OpenGL.
 #pragma once
 
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/camera.h"
@@ -12,10 +14,20 @@
 
 namespace ramify {
 
+/// What overlays draw with; those of one context share it. Needs a current context. Throws GraphicsError.
+struct OverlayPrograms {
+  OverlayPrograms();
+
+  GlProgram line;
+  GlProgram dot;
+  GlProgram square;
+  GlProgram veil;
+};
+
 /// The overlays of a product on the GPU. Needs a current context.
 class Overlay {
  public:
-  Overlay();
+  explicit Overlay(std::shared_ptr<const OverlayPrograms> programs) : programs_(std::move(programs)) {}
 
   void load(const Product& product, const std::set<std::string>& names, bool are_slices);
 
@@ -39,6 +51,7 @@ class Overlay {
     GlVertexArray vertices;
     GlBuffer positions;
     GlBuffer normals;
+    GlBuffer bends;
     GlBuffer indices;
     int count = 0;
   };
@@ -49,10 +62,7 @@ class Overlay {
   void draw_marks(const Batch& batch, const Camera& camera, const Viewport& viewport) const;
   void draw_veils(const Camera& camera) const;
 
-  GlProgram line_;
-  GlProgram dot_;
-  GlProgram square_;
-  GlProgram veil_;
+  std::shared_ptr<const OverlayPrograms> programs_;
   std::vector<Batch> batches_;
   std::vector<VeilBatch> veils_;
   Vec3 middle_{0.0};         // of the grown tree

@@ -41,6 +41,9 @@ constexpr double kLineWidth = 1.5;  // of the style skeleton, pixels of the pict
 // More than a buffer of indices holds: three times as many can be counted, too.
 constexpr std::size_t kMostTriangles = std::size_t{1} << 40;
 
+// Bytes that are copied to the device in one go: a few milliseconds.
+constexpr std::size_t kSlice = std::size_t{4} << 20;
+
 // The ground fades out this far from the tree, in parts of the tree's size.
 constexpr double kGroundReach = 3.5;
 
@@ -53,16 +56,23 @@ glm::vec4 as_light(const Color& color) {
   return {linear_color(color) * color.a, color.a};
 }
 
-/// `data` as the vertex attribute at `location` of the vertex array that is bound; `advance` 1: one an
+/// `buffer` as the vertex attribute at `location` of the vertex array that is bound; `advance` 1: one an
 /// instance.
-template <class T>
-void add_attribute(GLuint location, const GlBuffer& buffer, std::span<const T> data, GLint components,
-                   GLenum type, GLuint advance = 0) {
-  upload(buffer, data);
+void set_attribute(GLuint location, const GlBuffer& buffer, GLint components, GLenum type,
+                   GLuint advance = 0) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, components, type, type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE, 0,
                         nullptr);
   glVertexAttribDivisor(location, advance);
+}
+
+/// The same, filled with `data`.
+template <class T>
+void add_attribute(GLuint location, const GlBuffer& buffer, std::span<const T> data, GLint components,
+                   GLenum type, GLuint advance = 0) {
+  upload(buffer, data);
+  set_attribute(location, buffer, components, type, advance);
 }
 
 void bind_texture(int unit, GLenum target, const GlTexture& texture) {
@@ -110,15 +120,33 @@ double longest_side(std::span<const Vec3f> points) {
 
 }  // namespace
 
-Painter::Painter()
-    : background_("background", shaders::screen_vertex(), shaders::background_fragment()),
-      caster_("caster", shaders::caster_vertex(), shaders::caster_fragment()),
-      flat_("flat", shaders::flat_vertex(), shaders::flat_fragment()),
-      lit_("lit", shaders::lit_vertex(), shaders::lit_fragment()),
-      ground_("ground", shaders::ground_vertex(), shaders::ground_fragment()),
-      line_("line", shaders::line_vertex(), shaders::line_fragment()) {}
+PaintPrograms::PaintPrograms()
+    : background("background", shaders::screen_vertex(), shaders::background_fragment()),
+      caster("caster", shaders::caster_vertex(), shaders::caster_fragment()),
+      flat("flat", shaders::flat_vertex(), shaders::flat_fragment()),
+      lit("lit", shaders::lit_vertex(), shaders::lit_fragment()),
+      ground("ground", shaders::ground_vertex(), shaders::ground_fragment()),
+      line("line", shaders::line_vertex(), shaders::line_fragment()) {}
+
+Painter::Painter(std::shared_ptr<const PaintPrograms> programs) : programs_(std::move(programs)) {}
 
 void Painter::load(const Scene& scene, const RenderOptions& options) {
+  begin_load(scene, options);
+  while (load_more()) {
+  }
+}
+
+bool Painter::load_more() {
+  if (to_load_.empty()) return false;
+  // A step may add others, which come next.
+  const std::function<void()> step = std::move(to_load_.front());
+  to_load_.pop_front();
+  step();
+  return !to_load_.empty();
+}
+
+void Painter::begin_load(const Scene& scene, const RenderOptions& options) {
+  to_load_.clear();
   options_ = options;
   tree_ = Batch();
   triangle_count_ = 0;
@@ -130,20 +158,23 @@ void Painter::load(const Scene& scene, const RenderOptions& options) {
   bar_ = Batch();
   base_ = base_of(scene);
   ground_reach_ = 0.0;
-  if (options.style == RenderStyle::skeleton) {
-    load_lines(scene);
-  } else {
-    load_mesh(scene);
+  to_load_.emplace_back([this, scene] {
+    if (options_.style == RenderStyle::skeleton) {
+      load_lines(scene);
+    } else {
+      load_mesh(scene);
+    }
+  });
+  if (scene.obstacles != nullptr && !scene.obstacles->triangles.empty()) {
+    to_load_.emplace_back([this, scene] { load_obstacles(*scene.obstacles); });
   }
-  if (scene.obstacles != nullptr && !scene.obstacles->triangles.empty()) load_obstacles(*scene.obstacles);
-  if (options.style == RenderStyle::lit) load_sky_light(scene);
+  if (options.style == RenderStyle::lit) to_load_.emplace_back([this, scene] { load_sky_light(scene); });
 }
 
 void Painter::load_mesh(const Scene& scene) {
-  const std::vector<ColorBytes> colors = vertex_colors(scene, options_);
+  tree_colors_ = vertex_colors(scene, options_);
   if (scene.mesh == nullptr || scene.mesh->triangles.empty()) return;
   const Mesh& mesh = *scene.mesh;
-  tree_ = triangle_batch(mesh, colors);
   triangle_count_ = mesh.triangles.size();
   for (const MaterialRange& range : mesh.ranges) {
     // The mesher's branches are closed; a file's need not be, and leaves have two sides.
@@ -151,53 +182,75 @@ void Painter::load_mesh(const Scene& scene) {
     tree_.ranges.push_back(
         {3 * range.first_triangle, static_cast<int>(3 * range.triangle_count), is_closed, range.material});
   }
-  load_surfaces(mesh);
+  // Surfaces are counted in this order.
+  const bool shows_color = shows_materials(mesh);
+  for (auto material = mesh.materials.rbegin(); material != mesh.materials.rend(); ++material) {
+    to_load_.emplace_front([this, shown = &*material, shows_color] { load_surface(*shown, shows_color); });
+  }
+  to_load_.emplace_front([this] { tree_colors_ = {}; });
+  load_triangles(tree_, mesh, tree_colors_);
 }
 
 void Painter::load_obstacles(const Mesh& obstacles) {
   const Color color = options_.style == RenderStyle::lit ? kPlaster : kPale;
-  obstacles_ =
-      triangle_batch(obstacles, std::vector<ColorBytes>(obstacles.vertex_count(), color_bytes(color)));
+  obstacle_colors_.assign(obstacles.vertex_count(), color_bytes(color));
   obstacles_.ranges.push_back({0, static_cast<int>(3 * obstacles.triangles.size()), true, surfaces_.size()});
   surfaces_.emplace_back();
   for (const Vec3f& position : obstacles.positions) {
     obstacle_reach_ = std::max(obstacle_reach_, glm::distance(Vec3(position), base_));
   }
+  load_triangles(obstacles_, obstacles, obstacle_colors_);
 }
 
-/// Without ranges: the caller knows the materials.
-Painter::Batch Painter::triangle_batch(const Mesh& mesh, const std::vector<ColorBytes>& colors) const {
-  Batch batch;
+/// Makes room for the mesh; the rest of load_more() fills it. Without ranges: the caller knows the materials.
+void Painter::load_triangles(Batch& batch, const Mesh& mesh, const std::vector<ColorBytes>& colors) {
+  const auto fill = [this](const GlBuffer& buffer, const auto& values) {
+    load_later(buffer, values.data(), values.size() * sizeof(values[0]));
+  };
+  fill(batch.positions, mesh.positions);
+  if (options_.style == RenderStyle::lit) fill(batch.normals, mesh.normals);
+  fill(batch.colors, colors);
+  fill(batch.uvs, mesh.uvs);
+  fill(batch.indices, mesh.triangles);
+
   glBindVertexArray(batch.vertices.id());
-  add_attribute<Vec3f>(kPosition, batch.positions, mesh.positions, 3, GL_FLOAT);
-  if (options_.style == RenderStyle::lit) {
-    add_attribute<Vec3f>(kNormal, batch.normals, mesh.normals, 3, GL_FLOAT);
-  }
-  add_attribute<ColorBytes>(kColor, batch.colors, colors, 4, GL_UNSIGNED_BYTE);
-  add_attribute<Vec2f>(kUv, batch.uvs, mesh.uvs, 2, GL_FLOAT);
+  set_attribute(kPosition, batch.positions, 3, GL_FLOAT);
+  if (options_.style == RenderStyle::lit) set_attribute(kNormal, batch.normals, 3, GL_FLOAT);
+  set_attribute(kColor, batch.colors, 4, GL_UNSIGNED_BYTE);
+  set_attribute(kUv, batch.uvs, 2, GL_FLOAT);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, batch.indices.id());
-  const std::size_t byte_count = mesh.triangles.size() * sizeof(mesh.triangles[0]);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(byte_count), mesh.triangles.data(),
-               GL_STATIC_DRAW);
   glBindVertexArray(0);
-  return batch;
 }
 
-void Painter::load_surfaces(const Mesh& mesh) {
+/// In slices, before what else is to be loaded.
+void Painter::load_later(const GlBuffer& buffer, const void* data, std::size_t byte_count) {
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(byte_count), nullptr, GL_STATIC_DRAW);
+  for (std::size_t first = 0; first < byte_count; first += kSlice) {
+    const std::size_t size = std::min(kSlice, byte_count - first);
+    to_load_.emplace_front(
+        [id = buffer.id(), from = static_cast<const std::byte*>(data) + first, first, size] {
+          glBindBuffer(GL_COPY_WRITE_BUFFER, id);
+          glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(first), static_cast<GLsizeiptr>(size),
+                          from);
+        });
+  }
+}
+
+void Painter::load_surface(const Material& material, bool shows_color) {
   // In plain colours an image only tells where a leaf ends.
   const bool is_plain = !options_.color_by.empty() || options_.style == RenderStyle::schematic;
-  for (const Material& material : mesh.materials) {
-    Surface surface;
-    if (!is_plain && shows_materials(mesh)) surface.color = material.color;
-    surface.is_thin = material.is_two_sided;
-    surface.is_cutout = material.is_cutout && !material.image.is_empty();
-    if (!material.image.is_empty() && (!is_plain || surface.is_cutout)) {
-      surface.image = texture_of(material.image, true);
-    }
-    if (!material.normal_map.is_empty() && !is_plain)
-      surface.normal_map = texture_of(material.normal_map, false);
-    surfaces_.push_back(std::move(surface));
+  Surface surface;
+  if (!is_plain && shows_color) surface.color = material.color;
+  surface.is_thin = material.is_two_sided;
+  surface.is_cutout = material.is_cutout && !material.image.is_empty();
+  if (!material.image.is_empty() && (!is_plain || surface.is_cutout)) {
+    surface.image = texture_of(material.image, true);
   }
+  if (!material.normal_map.is_empty() && !is_plain) {
+    surface.normal_map = texture_of(material.normal_map, false);
+  }
+  surfaces_.push_back(std::move(surface));
 }
 
 void Painter::load_lines(const Scene& scene) {
@@ -231,7 +284,7 @@ void Painter::load_sky_light(const Scene& scene) {
   double size = 1.0;
   if (sky.visibility.empty()) {
     // What the box of the sky's light would measure.
-    const double side = scene.mesh != nullptr ? longest_side(scene.mesh->positions) : 0.0;
+    const double side = longest_side(outline_of(scene));
     if (side > 0.0) size = 1.3 * side;
     sky.box = {base_, base_ + 1.0};
     sky.size = Coord(1);
@@ -280,11 +333,12 @@ Painter::Batch Painter::flat_batch(const std::vector<Vec2f>& corners, const Came
 }
 
 void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_size, const TreePart& part) {
-  std::span<const Vec3f> tree;
-  std::span<const Vec3f> obstacles;
-  if (scene.mesh != nullptr) tree = scene.mesh->positions;
-  if (scene.obstacles != nullptr) obstacles = scene.obstacles->positions;
-  sun_ = sun_view(sun, {tree, obstacles, figure_corners_}, base_.y);
+  if (part.is_first()) {
+    const std::span<const Vec3f> tree = outline_of(scene);
+    std::span<const Vec3f> obstacles;
+    if (scene.obstacles != nullptr) obstacles = scene.obstacles->positions;
+    sun_ = sun_view(sun, {tree, obstacles, figure_corners_}, base_.y);
+  }
   if (!shadow_map_ || shadow_map_->size() != map_size) shadow_map_ = std::make_unique<ShadowMap>(map_size);
 
   shadow_map_->begin(part.is_first());
@@ -292,19 +346,19 @@ void Painter::cast_shadows(const Scene& scene, const CameraAxes& sun, int map_si
   glDepthFunc(GL_LESS);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
-  caster_.use();
+  programs_->caster.use();
   if (options_.with_occlusion) {
     cast(tree_, part);
-    if (part.is_first()) cast(obstacles_);
-    if (part.is_first()) cast(figure_);
+    if (part.is_last()) cast(obstacles_);
+    if (part.is_last()) cast(figure_);
   }
-  if (part.end >= triangle_count_) shadow_map_->finish();
+  if (part.is_last()) shadow_map_->finish();
 }
 
 void Painter::cast(const Batch& batch, const TreePart& part) const {
-  caster_.set("world_to_map", moved(sun_.world_to_map, batch.origin));
-  caster_.set("ground", static_cast<float>(base_.y - batch.origin.y));
-  draw_triangles(batch, caster_, part);
+  programs_->caster.set("world_to_map", moved(sun_.world_to_map, batch.origin));
+  programs_->caster.set("ground", static_cast<float>(base_.y - batch.origin.y));
+  draw_triangles(batch, programs_->caster, part);
 }
 
 bool Painter::has_ground(const Camera& camera) const {
@@ -326,15 +380,9 @@ void Painter::draw(const Camera& camera, const Viewport& viewport, const TreePar
     glDisable(GL_DEPTH_TEST);
     draw_background(viewport);
   }
-  if (part.end < triangle_count_) {
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    draw_solid(tree_, world_to_clip, part);
-    glBindVertexArray(0);
-    return;
-  }
-
   draw_over(camera, viewport, part);
+  if (!part.is_last()) return;
+
   draw_flat(figure_, world_to_clip);
   if (has_ground(camera)) draw_ground(world_to_clip);
   glDisable(GL_DEPTH_TEST);
@@ -344,6 +392,7 @@ void Painter::draw(const Camera& camera, const Viewport& viewport, const TreePar
 
 void Painter::draw_over(const Camera& camera, const Viewport& viewport, const TreePart& part) {
   const glm::dmat4 world_to_clip = cropped(viewport) * camera.world_to_clip();
+  glViewport(0, 0, viewport.width, viewport.height);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   if (options_.style == RenderStyle::skeleton) {
@@ -351,7 +400,7 @@ void Painter::draw_over(const Camera& camera, const Viewport& viewport, const Tr
   } else {
     draw_solid(tree_, world_to_clip, part);
   }
-  draw_solid(obstacles_, world_to_clip);
+  if (part.is_last()) draw_solid(obstacles_, world_to_clip);
   glBindVertexArray(0);
 }
 
@@ -362,17 +411,17 @@ void Painter::draw_background(const Viewport& viewport) const {
     bottom = as_light(kSkyBottom);
     top = as_light(kSkyTop);
   }
-  background_.use();
-  background_.set("bottom", bottom);
-  background_.set("top", top);
-  background_.set("part", Vec2f(viewport.low.y, viewport.high.y));
+  programs_->background.use();
+  programs_->background.set("bottom", bottom);
+  programs_->background.set("top", top);
+  programs_->background.set("part", Vec2f(viewport.low.y, viewport.high.y));
   glBindVertexArray(no_vertices_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void Painter::draw_solid(const Batch& batch, const glm::dmat4& world_to_clip, const TreePart& part) const {
   if (batch.ranges.empty()) return;
-  const GlProgram& program = options_.style == RenderStyle::lit ? lit_ : flat_;
+  const GlProgram& program = options_.style == RenderStyle::lit ? programs_->lit : programs_->flat;
   program.use();
   program.set("world_to_clip", moved(world_to_clip, batch.origin));
   if (options_.style == RenderStyle::lit) {
@@ -385,24 +434,24 @@ void Painter::draw_solid(const Batch& batch, const glm::dmat4& world_to_clip, co
 }
 
 void Painter::draw_lines(const glm::dmat4& world_to_clip, const Viewport& viewport) const {
-  line_.use();
-  line_.set("world_to_clip", moved(world_to_clip, tree_.origin));
-  line_.set("viewport", Vec2f(viewport.width, viewport.height));
-  line_.set("half_width", static_cast<float>(viewport.fineness * kLineWidth / 2.0));
+  programs_->line.use();
+  programs_->line.set("world_to_clip", moved(world_to_clip, tree_.origin));
+  programs_->line.set("viewport", Vec2f(viewport.width, viewport.height));
+  programs_->line.set("half_width", static_cast<float>(viewport.fineness * kLineWidth / 2.0));
   glBindVertexArray(tree_.vertices.id());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tree_.count);
 }
 
 void Painter::draw_ground(const glm::dmat4& world_to_clip) const {
-  ground_.use();
-  ground_.set("world_to_clip", glm::mat4(world_to_clip));
-  ground_.set("middle", Vec3f(base_));
-  ground_.set("reach", static_cast<float>(ground_reach_));
-  ground_.set("paint", linear_color(options_.background.value_or(kGround)));
-  ground_.set("penumbra", static_cast<float>(kPenumbra));
-  set_light(ground_);
+  programs_->ground.use();
+  programs_->ground.set("world_to_clip", glm::mat4(world_to_clip));
+  programs_->ground.set("middle", Vec3f(base_));
+  programs_->ground.set("reach", static_cast<float>(ground_reach_));
+  programs_->ground.set("paint", linear_color(options_.background.value_or(kGround)));
+  programs_->ground.set("penumbra", static_cast<float>(kPenumbra));
+  set_light(programs_->ground);
   bind_texture(kCoverageUnit, GL_TEXTURE_2D, shadow_map_->coverage());
-  ground_.set("shade", kCoverageUnit);
+  programs_->ground.set("shade", kCoverageUnit);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(no_vertices_.id());
@@ -411,9 +460,9 @@ void Painter::draw_ground(const glm::dmat4& world_to_clip) const {
 }
 
 void Painter::draw_flat(const Batch& batch, const glm::dmat4& world_to_clip) const {
-  flat_.use();
-  flat_.set("world_to_clip", moved(world_to_clip, batch.origin));
-  draw_triangles(batch, flat_);
+  programs_->flat.use();
+  programs_->flat.set("world_to_clip", moved(world_to_clip, batch.origin));
+  draw_triangles(batch, programs_->flat);
 }
 
 void Painter::draw_triangles(const Batch& batch, const GlProgram& program, const TreePart& part) const {

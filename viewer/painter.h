@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -18,6 +20,8 @@
 
 namespace ramify {
 
+struct Material;
+
 /// The part of a picture that a framebuffer takes up.
 struct Viewport {
   int width = 0;  // pixels of the framebuffer
@@ -28,22 +32,45 @@ struct Viewport {
 };
 
 /// Which of the tree's triangles are drawn. Very many are drawn part by part: what is drawn before the tree
-/// goes with its first triangle, what is drawn after it with its last.
+/// goes with the part that begins with its first triangle, what is drawn after it with the part without end.
 struct TreePart {
+  static constexpr std::size_t kNoEnd = std::numeric_limits<std::size_t>::max();
+
   std::size_t first = 0;
-  std::size_t end = std::numeric_limits<std::size_t>::max();
+  std::size_t end = kNoEnd;
 
   bool is_first() const { return first == 0; }
+  bool is_last() const { return end == kNoEnd; }
+};
+
+/// What painters draw with; those of one context share it, as compiling takes a while. Needs a current
+/// context. Throws GraphicsError.
+struct PaintPrograms {
+  PaintPrograms();
+
+  GlProgram background;
+  GlProgram caster;
+  GlProgram flat;
+  GlProgram lit;
+  GlProgram ground;
+  GlProgram line;
 };
 
 class Painter {
  public:
   /// Needs a current OpenGL 3.3 context, the same one in every call. Throws GraphicsError.
-  Painter();
+  explicit Painter(std::shared_ptr<const PaintPrograms> programs = std::make_shared<const PaintPrograms>());
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
 
   /// Takes over what `options` show of the scene; replaces what was loaded before, annotations included.
   /// Throws InputError if options.color_by or the style asks for what the scene lacks.
   void load(const Scene& scene, const RenderOptions& options);
+
+  /// The same little by little: each call of load_more() takes some milliseconds and says whether there is
+  /// more to come. Until there is none, the scene has to stay as it is and nothing can be drawn.
+  void begin_load(const Scene& scene, const RenderOptions& options);
+  bool load_more();
 
   /// Adds figure and bar to what was loaded, in the plane through `base` spanned by right and up.
   void load_annotations(const Annotations& annotations, const Vec3& base, const CameraAxes& axes);
@@ -96,9 +123,10 @@ class Painter {
   };
 
   void load_mesh(const Scene& scene);
-  void load_surfaces(const Mesh& mesh);
+  void load_surface(const Material& material, bool shows_color);
   void load_obstacles(const Mesh& obstacles);
-  Batch triangle_batch(const Mesh& mesh, const std::vector<ColorBytes>& colors) const;
+  void load_triangles(Batch& batch, const Mesh& mesh, const std::vector<ColorBytes>& colors);
+  void load_later(const GlBuffer& buffer, const void* data, std::size_t byte_count);
   void load_lines(const Scene& scene);
   void load_sky_light(const Scene& scene);
   Batch flat_batch(const std::vector<Vec2f>& corners, const CameraAxes& axes) const;
@@ -113,15 +141,13 @@ class Painter {
   void set_light(const GlProgram& program) const;
   bool has_ground(const Camera& camera) const;
 
-  GlProgram background_;
-  GlProgram caster_;
-  GlProgram flat_;
-  GlProgram lit_;
-  GlProgram ground_;
-  GlProgram line_;
+  std::shared_ptr<const PaintPrograms> programs_;
   GlVertexArray no_vertices_;
 
   RenderOptions options_;
+  std::deque<std::function<void()>> to_load_;  // some milliseconds each
+  std::vector<ColorBytes> tree_colors_;        // until they are loaded
+  std::vector<ColorBytes> obstacle_colors_;
   Batch tree_;
   std::size_t triangle_count_ = 0;
   std::vector<Surface> surfaces_;

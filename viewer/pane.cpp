@@ -1,15 +1,10 @@
 #include "viewer/pane.h"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
-#include <limits>
-#include <string_view>
 
-#include "common/mesh/attribute_colors.h"
 #include "viewer/theme.h"
 
 namespace ramify {
@@ -19,260 +14,241 @@ namespace {
 constexpr double kSlow = 0.05;
 constexpr double kQuick = 0.012;
 
-constexpr int kShadowMapSize = 2048;
+// Seconds that one call may take for bringing a tree, if that can wait.
+constexpr double kMoment = 0.03;
 
-constexpr Sampling kMoving{.fineness = 1, .samples = 1};
-constexpr Sampling kAtRest{.fineness = 1, .samples = 4};
+// Where the processor draws, more triangles than this are no quick picture: the last one stays meanwhile.
+constexpr std::size_t kMostQuickTriangles = 600'000;
 
-constexpr Sampling kFinest{.fineness = 2, .samples = 4};
-
-// Seconds a part of a picture that is drawn gradually.
-constexpr double kMoment = 0.12;
-constexpr std::size_t kSmallestPart = 20'000;  // triangles
-
-// Seconds that kAtRest may take for kFinest to come after it: the window is not to stand still.
+// Seconds that a picture at rest may take for the finest to come after it: at once, the window is not to
+// stand still, little by little, the processor is not to work for long.
 constexpr double kQuickAtRest = 0.08;
+constexpr double kQuickGradual = 1.0;
 
 double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Whether the processor draws: then very many triangles take seconds.
-bool is_drawn_in_software() {
-  const GLubyte* name = glGetString(GL_RENDERER);
-  return name != nullptr &&
-         std::string_view(reinterpret_cast<const char*>(name)).find("pipe") != std::string_view::npos;
-}
-
-/// The sun stays where it is while the viewer walks around.
-CameraAxes sun() {
-  return sun_behind({});
-}
-
-Scene scene_of(const Product& product, const ShowOptions& show) {
-  const bool has_skeleton = product.skeleton.node_count() > 0;
-  return {.mesh = &product.mesh,
-          .skeleton = has_skeleton ? &product.skeleton : nullptr,
-          .sky = product.sky.visibility.empty() ? nullptr : &product.sky,
-          .obstacles = show.layers.count(kObstacles) > 0 ? &product.obstacles : nullptr};
+Sampling sampling_of(Quality quality) {
+  switch (quality) {
+    case Quality::moving:
+      return {.fineness = 1, .samples = 1};
+    case Quality::at_rest:
+      return {.fineness = 1, .samples = 4};
+    case Quality::finest:
+      break;
+  }
+  return {.fineness = 2, .samples = 4};
 }
 
 }  // namespace
 
-void Pane::load(Loaded& loaded, const Exhibit& exhibit, const ShowOptions& show) {
-  const Scene scene = scene_of(*exhibit.product, show);
-  RenderOptions options;
-  options.style = show.style;
-  options.tint = exhibit.tint;
-  options.with_occlusion = !exhibit.product->is_draft;
-  if (scene.skeleton == nullptr && show.style == RenderStyle::skeleton) {
-    options.style = RenderStyle::lit;
-    notice_ = "a mesh without a skeleton has no lines to show";
-  }
-  if (!show.color_by.empty()) {
-    std::vector<std::string> known;
-    if (scene.skeleton != nullptr) known = color_attributes(*scene.skeleton);
-    if (std::find(known.begin(), known.end(), show.color_by) != known.end()) {
-      options.color_by = show.color_by;
-    } else {
-      notice_ = fmt::format("this tree has no attribute '{}'", show.color_by);
-    }
-  }
-  loaded.coarse.reset();
-  loaded.options = options;
-  loaded.is_fine = true;
-  loaded.shadowed = std::numeric_limits<std::size_t>::max();
-  const bool is_gradual = options.style != RenderStyle::skeleton && exhibits_at_once_ == 1 &&
-                          !exhibit.product->coarse.triangles.empty() && is_drawn_in_software();
-  if (is_gradual) {
-    load_coarse(loaded, *exhibit.product, show);
-  } else {
-    loaded.painter.load(scene, options);
-    if (options.style == RenderStyle::lit) {
-      loaded.painter.cast_shadows(scene, sun(), options.with_occlusion ? kShadowMapSize : 64);
-    }
-  }
-  loaded.overlay.load(*exhibit.product, show.layers, show.are_slices);
-  loaded.base = base_of(scene);
-  loaded.serial = exhibit.product->serial;
-  loaded.show = show;
-  loaded.tint = exhibit.tint;
-}
-
-/// What is drawn at once; the fine mesh comes later.
-void Pane::load_coarse(Loaded& loaded, const Product& product, const ShowOptions& show) {
-  Scene scene = scene_of(product, show);
-  scene.mesh = &product.coarse;
-  loaded.coarse = std::make_unique<Painter>();
-  loaded.coarse->load(scene, loaded.options);
-  loaded.is_fine = false;
-  if (loaded.options.style != RenderStyle::lit) return;
-  loaded.coarse->cast_shadows(scene, sun(), kShadowMapSize);
-  loaded.shadowed = 0;
-}
-
 unsigned Pane::picture(const std::vector<Exhibit>& exhibits, const ShowOptions& show, const Orbit& orbit,
                        int width, int height, Quality quality) {
-  const double start = now_seconds();
-  is_stale_ = is_stale_ || loaded_.size() != exhibits.size() || orbit_ != orbit || quality_ != quality;
-  // Of two trees in one picture each hides parts of the other: they are drawn in one go.
-  if (exhibits_at_once_ != exhibits.size()) loaded_.clear();
-  exhibits_at_once_ = exhibits.size();
-  loaded_.resize(exhibits.size());
-  Box box;
-  for (std::size_t index = 0; index < exhibits.size(); ++index) {
-    const Exhibit& exhibit = exhibits[index];
-    box.include(exhibit.product->box);
-    std::unique_ptr<Loaded>& loaded = loaded_[index];
-    if (!loaded) loaded = std::make_unique<Loaded>();
-    if (loaded->serial == exhibit.product->serial && loaded->show == show && loaded->tint == exhibit.tint) {
-      continue;
-    }
-    notice_.clear();
-    load(*loaded, exhibit, show);
-    is_stale_ = true;
-  }
-  box_ = box;
-  const int shrink = quality == Quality::moving ? shrink_ : 1;
-  width = std::max(1, width / shrink);
-  height = std::max(1, height / shrink);
-  is_stale_ = is_stale_ || width_ != width || height_ != height;
-  width_ = width;
-  height_ = height;
+  choose(exhibits, show);
+  const bool are_new = bring(exhibits);
+  is_unfinished_ = true;
+  if (shown_.empty()) return 0;
+  const View view{orbit, width, height};
+  const bool is_stale = are_new || view != view_ || on_show_ == nullptr;
+  const bool is_other_quality = quality != quality_;
+  view_ = view;
   quality_ = quality;
-  orbit_ = orbit;
-  if (is_stale_) {
-    draw_anew();
-    ++drawn_count_;
-    last_seconds_ = now_seconds() - start;
+  if (is_stale || is_other_quality) {
+    draw_anew(is_stale);
+  } else if (is_drawing_ && shown_ == wanted_) {
+    draw_more(exhibits);
   }
-  if (!is_stale_ && is_unfinished_ && quality != Quality::moving) draw_more(exhibits.front());
-  is_stale_ = false;
-  return (shows_gradual_ ? gradual_target_ : target_)->target.picture().id();
+  is_unfinished_ = is_drawing_ || shown_ != wanted_;
+  return on_show_ == nullptr ? 0 : on_show_->target.picture().id();
 }
 
-void Pane::draw_anew() {
-  shows_gradual_ = false;
-  is_unfinished_ = loaded_.size() == 1 && loaded_.front()->coarse;
-  drawn_triangles_ = 0;
-  if (quality_ == Quality::moving || is_unfinished_) {
-    const double seconds = draw(kMoving);
-    if (quality_ != Quality::moving) return;
-    if (seconds > kSlow) shrink_ = 2;
-    if (seconds < kQuick) shrink_ = 1;
-  } else if (quality_ == Quality::finest || draw(kAtRest) < kQuickAtRest) {
-    draw(kFinest);
+/// Those that are there already stay.
+void Pane::choose(const std::vector<Exhibit>& exhibits, const ShowOptions& show) {
+  const auto is_same = [&](const Exhibit& exhibit, const std::shared_ptr<StagedTree>& tree) {
+    return tree->shows(exhibit, show);
+  };
+  if (std::equal(exhibits.begin(), exhibits.end(), wanted_.begin(), wanted_.end(), is_same)) return;
+  Trees trees;
+  for (const Exhibit& exhibit : exhibits) {
+    const auto known = std::find_if(wanted_.begin(), wanted_.end(),
+                                    [&](const auto& tree) { return is_same(exhibit, tree); });
+    trees.push_back(known != wanted_.end()
+                        ? *known
+                        : std::make_shared<StagedTree>(programs_, exhibit, show, portion_.is_limited()));
   }
+  wanted_ = std::move(trees);
+  notice_.clear();
+  for (const auto& tree : wanted_) {
+    if (notice_.empty()) notice_ = tree->notice();
+  }
+}
+
+/// Whether the trees that are wanted are shown now and were not before. A draft, which follows a slider,
+/// comes at once, others when they can.
+bool Pane::bring(const std::vector<Exhibit>& exhibits) {
+  if (shown_ == wanted_) return false;
+  const bool can_wait = std::none_of(exhibits.begin(), exhibits.end(),
+                                     [](const Exhibit& exhibit) { return exhibit.product->is_draft; });
+  Portion all(false);
+  const double end = now_seconds() + kMoment;
+  for (std::size_t index = 0; index < wanted_.size(); ++index) {
+    while (!wanted_[index]->is_quick()) {
+      if (can_wait && now_seconds() > end) return false;
+      wanted_[index]->step(exhibits[index], can_wait ? portion_ : all);
+    }
+  }
+  shown_ = wanted_;
+  box_ = Box();
+  for (const auto& tree : shown_) box_.include(tree->box());
+  return true;
+}
+
+/// `is_stale`: the picture on show is of other trees, or of another view of them.
+void Pane::draw_anew(bool is_stale) {
+  is_drawing_ = false;
+  if (quality_ == Quality::moving) return draw_quick();
+  if (portion_.is_limited()) {
+    std::size_t quick = 0;
+    for (const auto& tree : shown_) quick += tree->quick().triangle_count();
+    if (is_stale && quick <= kMostQuickTriangles) draw_quick();
+    return begin_drawing(quality_);
+  }
+  if (quality_ == Quality::finest || draw_at_once(Quality::at_rest, 1) < kQuickAtRest) {
+    draw_at_once(Quality::finest, 1);
+  }
+}
+
+void Pane::draw_quick() {
+  const double seconds = draw_at_once(Quality::moving, shrink_);
+  if (quality_ != Quality::moving) return;
+  if (seconds > kSlow) shrink_ = 2;
+  if (seconds < kQuick) shrink_ = 1;
+}
+
+/// Returns the seconds it took.
+double Pane::draw_at_once(Quality quality, int shrink) {
+  Target& target = require(quality, shrink);
+  const double start = now_seconds();
+  target.target.begin();
+  for (std::size_t index = 0; index < shown_.size(); ++index) draw_tree(index, false, {}, target);
+  show(target);
+  last_seconds_ = now_seconds() - start;
+  return last_seconds_;
+}
+
+void Pane::begin_drawing(Quality quality) {
+  is_drawing_ = true;
+  drawing_ = quality;
+  tree_ = 0;
+  triangles_ = 0;
+  seconds_ = 0.0;
+}
+
+/// Goes on for a moment with bringing the fine meshes, or with the picture.
+void Pane::draw_more(const std::vector<Exhibit>& exhibits) {
+  const double start = now_seconds();
+  std::size_t coarse = 0;  // the first tree that is
+  do {
+    while (coarse < shown_.size() && shown_[coarse]->is_fine()) ++coarse;
+    if (coarse < shown_.size()) {
+      shown_[coarse]->step(exhibits[coarse], portion_);
+    } else {
+      draw_part();
+    }
+  } while (is_drawing_ && now_seconds() < start + kMoment);
+  seconds_ += now_seconds() - start;
+  if (is_drawing_) return;
+  last_seconds_ = seconds_;
+  if (drawing_ == Quality::at_rest && seconds_ < kQuickGradual) begin_drawing(Quality::finest);
+}
+
+/// A part of the picture, which is shown when it is whole.
+void Pane::draw_part() {
+  Target& target = require(drawing_, 1);
+  if (tree_ == shown_.size()) {
+    is_drawing_ = false;
+    return show(target);
+  }
+  target.target.begin();
+  const double start = now_seconds();
+  const TreePart part = portion_.next(triangles_, shown_[tree_]->fine().triangle_count());
+  draw_tree(tree_, true, part, target);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glFinish();
+  portion_.took(part, now_seconds() - start);
+  triangles_ = part.end;
+  if (!part.is_last()) return;
+  ++tree_;
+  triangles_ = 0;
 }
 
 Image Pane::image() const {
-  Image image{width_, height_, {}};
-  const std::unique_ptr<Target>& shown = shows_gradual_ ? gradual_target_ : target_;
-  if (!shown) return image;
-  const std::size_t row = 4 * static_cast<std::size_t>(width_);
-  std::vector<std::uint8_t> rows(row * height_);
-  shown->target.read(width_, height_, rows.data());
-  for (int y = height_ - 1; y >= 0; --y) {
+  if (on_show_ == nullptr) return {};
+  Image image{on_show_->width, on_show_->height, {}};
+  const std::size_t row = 4 * static_cast<std::size_t>(image.width);
+  std::vector<std::uint8_t> rows(row * image.height);
+  on_show_->target.read_finished(image.width, image.height, rows.data());
+  for (int y = image.height - 1; y >= 0; --y) {
     image.rgba.insert(image.rgba.end(), rows.begin() + row * y, rows.begin() + row * (y + 1));
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return image;
 }
 
-/// Upright, beside the tree, and turned to the viewer.
-void Pane::stand_figure(Painter& painter, const Loaded& loaded) const {
-  painter.load_annotations(annotations_beside(box_, loaded.base, orbit_.azimuth_deg), loaded.base,
-                           camera_axes(orbit_.azimuth_deg, 0.0));
-}
-
 /// A target as large as the picture.
-void Pane::require(std::unique_ptr<Target>& target, const Sampling& sampling) const {
-  if (target && target->width == width_ && target->height == height_ &&
-      target->target.sampling() == sampling) {
-    return;
-  }
+Pane::Target& Pane::require(Quality quality, int shrink) {
+  std::unique_ptr<Target>& target = targets_[static_cast<std::size_t>(quality)];
+  const int width = std::max(1, view_.width / shrink);
+  const int height = std::max(1, view_.height / shrink);
+  if (target && target->width == width && target->height == height) return *target;
+  if (on_show_ == target.get()) on_show_ = nullptr;
   target.reset();
-  target = std::make_unique<Target>(width_, height_, sampling);
+  target = std::make_unique<Target>(width, height, sampling_of(quality));
+  return *target;
 }
 
-/// Returns the seconds it took.
-double Pane::draw(const Sampling& sampling) {
-  require(target_, sampling);
-  const double start = now_seconds();
-  target_->target.begin();
-  draw_exhibits(sampling, {}, true);
-  finish(*target_);
-  return now_seconds() - start;
-}
-
-/// Into the framebuffer that is bound; `is_coarse`: trees of very many triangles by their coarse meshes.
-void Pane::draw_exhibits(const Sampling& sampling, const TreePart& part, bool is_coarse) {
-  const double aspect = static_cast<double>(width_) / height_;
+/// Into the target, which is bound; `is_fine`: not by the coarse mesh that a tree of very many triangles has.
+void Pane::draw_tree(std::size_t index, bool is_fine, const TreePart& part, const Target& target) const {
+  const auto painter_of = [&](const std::shared_ptr<StagedTree>& tree) -> Painter& {
+    return is_fine ? tree->fine() : tree->quick();
+  };
   double reach = 0.0;
-  for (const auto& loaded : loaded_) {
-    reach = std::max(reach, (loaded->coarse ? *loaded->coarse : loaded->painter).reach());
-  }
-  const Camera camera = camera_of(orbit_, aspect, box_, reach);
+  for (const auto& tree : shown_) reach = std::max(reach, painter_of(tree).reach());
+  const double aspect = static_cast<double>(target.width) / target.height;
+  const Camera camera = camera_of(view_.orbit, aspect, box_, reach);
+  const int fineness = target.target.sampling().fineness;
   Viewport viewport;
-  viewport.width = sampling.fineness * width_;
-  viewport.height = sampling.fineness * height_;
-  viewport.fineness = sampling.fineness * display_scale();
-  for (std::size_t index = 0; index < loaded_.size(); ++index) {
-    Loaded& loaded = *loaded_[index];
-    Painter& painter = is_coarse && loaded.coarse ? *loaded.coarse : loaded.painter;
-    if (index == 0 && loaded.show.with_scale && part.is_first()) stand_figure(painter, loaded);
-    if (index == 0) {
-      painter.draw(camera, viewport, part);
-    } else {
-      painter.draw_over(camera, viewport);
-    }
-    if (part.end >= painter.triangle_count()) loaded.overlay.draw(camera, viewport);
+  viewport.width = fineness * target.width;
+  viewport.height = fineness * target.height;
+  viewport.fineness = fineness * display_scale();
+
+  const StagedTree& tree = *shown_[index];
+  Painter& painter = painter_of(shown_[index]);
+  if (index == 0 && tree.with_scale() && part.is_first()) {
+    // Upright, beside the trees, and turned to the viewer.
+    const double azimuth = view_.orbit.azimuth_deg;
+    painter.load_annotations(annotations_beside(box_, tree.base(), azimuth), tree.base(),
+                             camera_axes(azimuth, 0.0));
   }
+  if (index == 0) {
+    painter.draw(camera, viewport, part);
+  } else {
+    painter.draw_over(camera, viewport, part);
+  }
+  if (part.is_last()) tree.overlay().draw(camera, viewport);
 }
 
 /// Waits until it is drawn, for the next one to know how long that takes.
-void Pane::finish(Target& target) const {
-  target.target.finish(width_, height_);
+void Pane::show(Target& target) {
+  target.target.finish(target.width, target.height);
   glBindTexture(GL_TEXTURE_2D, target.target.picture().id());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glFinish();
-}
-
-/// Takes over the fine mesh, or draws a part of its shadows, or of the picture, which is shown when it is
-/// whole.
-void Pane::draw_more(const Exhibit& exhibit) {
-  Loaded& loaded = *loaded_.front();
-  if (!loaded.is_fine) {
-    loaded.painter.load(scene_of(*exhibit.product, loaded.show), loaded.options);
-    loaded.is_fine = true;
-    return;
-  }
-  const Sampling& sampling = quality_ == Quality::finest ? kFinest : kAtRest;
-  const std::size_t total = loaded.painter.triangle_count();
-  const bool is_casting = loaded.shadowed < total;
-  std::size_t& done = is_casting ? loaded.shadowed : drawn_triangles_;
-  TreePart part{.first = done};
-  if (done + part_size_ < total) part.end = done + part_size_;
-  const double start = now_seconds();
-  if (is_casting) {
-    loaded.painter.cast_shadows(scene_of(*exhibit.product, loaded.show), sun(), kShadowMapSize, part);
-  } else {
-    require(gradual_target_, sampling);
-    gradual_target_->target.begin();
-    draw_exhibits(sampling, part, false);
-    is_unfinished_ = part.end < total;
-    shows_gradual_ = !is_unfinished_;
-    if (!is_unfinished_) finish(*gradual_target_);
-  }
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glFinish();
-  done = std::min(part.end, total);
-  const double seconds = std::max(now_seconds() - start, 1e-4);
-  const double wanted = static_cast<double>(part_size_) * std::clamp(kMoment / seconds, 0.25, 4.0);
-  part_size_ = std::max(kSmallestPart, static_cast<std::size_t>(wanted));
-  if (!is_unfinished_) ++drawn_count_;
+  on_show_ = &target;
+  ++drawn_count_;
 }
 
 }  // namespace ramify

@@ -68,8 +68,8 @@ void RenderTarget::finish(int width, int height) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void RenderTarget::read(int width, int height, unsigned char* rgba) {
-  finish(width, height);
+void RenderTarget::read_finished(int width, int height, unsigned char* rgba) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, finishing_.id());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
 }

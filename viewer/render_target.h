@@ -31,8 +31,8 @@ class RenderTarget {
   /// bound.
   void finish(int width, int height);
 
-  /// finish(), then reads the pixels, bottom row first, into `rgba`.
-  void read(int width, int height, unsigned char* rgba);
+  /// Reads the pixels that finish() made, bottom row first, into `rgba`. Leaves its own framebuffer bound.
+  void read_finished(int width, int height, unsigned char* rgba) const;
 
   /// What finish() made, bottom row first.
   const GlTexture& picture() const { return finished_; }

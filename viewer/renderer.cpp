@@ -109,7 +109,8 @@ Image Renderer::Implementation::draw(const Camera& camera, const RenderOptions& 
       // The last part of a row or column may reach beyond the picture.
       const int width = std::min(part_width, options.width - x);
       const int height = std::min(part_height, options.height - y);
-      target->read(width, height, part.data());
+      target->finish(width, height);
+      target->read_finished(width, height, part.data());
       for (int row = 0; row < height; ++row) {
         const std::size_t top_down = options.height - 1 - (y + row);
         const unsigned char* pixels = part.data() + 4 * static_cast<std::size_t>(row) * width;

@@ -21,6 +21,43 @@ constexpr ColorBytes kLeafGreen{86, 118, 52, 255};
 // Obstacles are shown this far around a tree, in parts of its size: a long wall does not make it small.
 constexpr double kObstacleRoom = 0.25;
 
+// As many points are no trouble; of more, those on the outside are picked out by cells so many a side.
+constexpr std::size_t kManyPoints = 100'000;
+constexpr int kOutlineCells = 96;
+
+/// Of the points in each row of cells along one axis, the first and the last.
+class RowEnds {
+ public:
+  RowEnds(int axis, const Box& box)
+      : axis_(axis), low_(box.low), cell_(glm::max(box.size(), 1e-9) / double{kOutlineCells}) {}
+
+  void include(const Vec3f& point) {
+    const glm::ivec3 at = glm::clamp(glm::ivec3((Vec3(point) - low_) / cell_), 0, kOutlineCells - 1);
+    Ends& row = rows_[static_cast<std::size_t>(at[(axis_ + 1) % 3] * kOutlineCells + at[(axis_ + 2) % 3])];
+    if (row.first == nullptr || point[axis_] < (*row.first)[axis_]) row.first = &point;
+    if (row.last == nullptr || point[axis_] > (*row.last)[axis_]) row.last = &point;
+  }
+
+  void append_to(std::vector<Vec3f>& points) const {
+    for (const Ends& row : rows_) {
+      if (row.first == nullptr) continue;
+      points.push_back(*row.first);
+      points.push_back(*row.last);
+    }
+  }
+
+ private:
+  struct Ends {
+    const Vec3f* first = nullptr;
+    const Vec3f* last = nullptr;
+  };
+
+  int axis_;
+  Vec3 low_;
+  Vec3 cell_;
+  std::vector<Ends> rows_ = std::vector<Ends>(static_cast<std::size_t>(kOutlineCells) * kOutlineCells);
+};
+
 std::vector<ColorBytes> bytes_of(const std::vector<Color>& colors) {
   std::vector<ColorBytes> bytes(colors.size());
   std::transform(colors.begin(), colors.end(), bytes.begin(), color_bytes);
@@ -67,6 +104,25 @@ void require_skeleton(const Scene& scene, const std::string& color_by) {
 
 }  // namespace
 
+std::vector<Vec3f> outline_of(std::span<const Vec3f> points) {
+  if (points.size() <= kManyPoints) return {points.begin(), points.end()};
+  Box box;
+  for (const Vec3f& point : points) box.include(Vec3(point));
+  std::vector<Vec3f> outline;
+  for (int axis = 0; axis < 3; ++axis) {
+    RowEnds rows(axis, box);
+    for (const Vec3f& point : points) rows.include(point);
+    rows.append_to(outline);
+  }
+  return outline;
+}
+
+std::span<const Vec3f> outline_of(const Scene& scene) {
+  if (!scene.outline.empty()) return scene.outline;
+  if (scene.mesh == nullptr) return {};
+  return scene.mesh->positions;
+}
+
 Vec3 base_of(const Scene& scene) {
   if (scene.skeleton != nullptr && scene.skeleton->node_count() > 0) {
     const Skeleton& skeleton = *scene.skeleton;
@@ -77,9 +133,7 @@ Vec3 base_of(const Scene& scene) {
     return lowest;
   }
   Box box;
-  if (scene.mesh != nullptr) {
-    for (const Vec3f& position : scene.mesh->positions) box.include(Vec3(position));
-  }
+  for (const Vec3f& position : outline_of(scene)) box.include(Vec3(position));
   return box.is_empty() ? Vec3(0.0) : Vec3(box.center().x, box.low.y, box.center().z);
 }
 

@@ -39,11 +39,19 @@ struct RenderOptions {
 };
 
 struct Scene {
-  const Mesh* mesh = nullptr;          // null is drawn as an empty one
-  const Skeleton* skeleton = nullptr;  // null for a mesh read from a file
-  const SkyLight* sky = nullptr;       // of the mesh, where it was made before; null: made when it is needed
-  const Mesh* obstacles = nullptr;     // what stands in the tree's way; null: nothing
+  const Mesh* mesh = nullptr;           // null is drawn as an empty one
+  const Skeleton* skeleton = nullptr;   // null for a mesh read from a file
+  const SkyLight* sky = nullptr;        // of the mesh, where it was made before; null: made when it is needed
+  const Mesh* obstacles = nullptr;      // what stands in the tree's way; null: nothing
+  std::span<const Vec3f> outline = {};  // outline_of() the mesh, where it is known: spares walking through it
 };
+
+/// Points that take up as much room as all of them do, from any side, to half a percent of their box or so;
+/// along the axes exactly. All, if they are not many. O(points).
+std::vector<Vec3f> outline_of(std::span<const Vec3f> points);
+
+/// The scene's own, else all of the mesh's points.
+std::span<const Vec3f> outline_of(const Scene& scene);
 
 /// Where the tree stands: the lowest root node or, without a skeleton, the middle of the mesh's underside;
 /// the origin for an empty scene. The ground is level with it.

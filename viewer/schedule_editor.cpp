@@ -60,7 +60,9 @@ void draw_curve(const Plot& plot, const Schedule& schedule, int marked) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 high(plot.low.x + plot.size.x, plot.low.y + plot.size.y);
   list.AddRectFilled(plot.low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0f);
-  list.PushClipRect(plot.low, high, true);
+  // With room for all of a point on the edge.
+  const float edge = 5.0f * ui_scale();
+  list.PushClipRect({plot.low.x - edge, plot.low.y - edge}, {high.x + edge, high.y + edge}, true);
   const ImU32 line = ImGui::GetColorU32(ImGuiCol_PlotLines);
   constexpr int kPieces = 64;
   std::vector<ImVec2> curve;

@@ -138,6 +138,7 @@ void show_picture(Workbench& bench, std::size_t index, const ImVec2& size) {
   const unsigned texture = seat.pane.picture(
       exhibits, bench.show, orbit, std::max(1, static_cast<int>(size.x * pixels)),
       std::max(1, static_cast<int>(size.y * pixels)), bench.is_drawn_fast ? Quality::moving : at_rest);
+  if (texture == 0) return;
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture)),
                                        low, plus(low, size), {0.0f, 1.0f}, {1.0f, 0.0f});
 }

@@ -408,12 +408,15 @@ std::string veil_vertex() {
   return R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+layout(location = 2) in float bend;  // 1/m
 uniform mat4 world_to_clip;
 out vec3 world;
 out vec3 world_normal;
+out float roundness;
 void main() {
   world = position;
   world_normal = normal;
+  roundness = bend;
   gl_Position = world_to_clip * vec4(position, 1.0);
 }
 )";
@@ -423,6 +426,7 @@ std::string veil_fragment() {
   return R"(
 in vec3 world;
 in vec3 world_normal;
+in float roundness;  // 1/m
 uniform vec4 eye;  // with w 0 the direction towards a viewer without perspective
 uniform vec3 paint;
 uniform vec3 middle;
@@ -431,8 +435,10 @@ out vec4 color;
 void main() {
   vec3 to_eye = normalize(eye.xyz - world * eye.w);
   float facing = abs(dot(normalize(world_normal), to_eye));
-  // A soap bubble: one looks through more of it where it is seen from the side.
-  float opacity = 0.07 + 0.43 * pow(1.0 - facing, 2.5);
+  // A soap bubble: one looks through more of it where it is seen from the side. Where it is flat that is no
+  // edge: a wide face would be a stain over all behind it.
+  float bubble = min(0.5 * reach * roundness, 1.0);
+  float opacity = 0.07 + 0.43 * bubble * pow(1.0 - facing, 2.5);
   opacity *= 1.0 - smoothstep(0.5, 1.0, distance(world, middle) / reach);
   color = vec4(paint * opacity, opacity);
 }

@@ -31,6 +31,9 @@ constexpr float kSidebarShare = 0.4f;    // of the window at most
 constexpr double kAfterInput = 0.15;  // seconds
 constexpr double kFrame = 0.016;
 
+// Seconds that a frame takes without being noticed.
+constexpr double kLongFrame = 0.03;
+
 // The first frames find out how large everything is.
 constexpr int kFirstFrames = 4;
 
@@ -86,12 +89,16 @@ bool is_drawing(const Workbench& bench) {
 
 /// What a driving program waits for. "TREE seat internodes draft|fine delay now": a tree is on show, so many
 /// milliseconds after the input that changed it, at so many seconds; "PICTURE seat fast|fine triangles
-/// milliseconds": it was drawn anew; "READY": all trees are on show, and at rest.
+/// milliseconds": it was drawn anew; "FRAME milliseconds": the window could not answer for so long; "READY":
+/// all trees are on show, and at rest.
 class Drive {
  public:
-  void tell(Workbench& bench) {
+  /// After a frame, which began at that time.
+  void tell(Workbench& bench, double begin) {
     if (!bench.report.is_on()) return;
     bench.report.flush();
+    const double seconds = Window::now() - begin;
+    if (seconds > kLongFrame) bench.report.say(fmt::format("FRAME {:.0f}", 1000.0 * seconds));
     bool is_settled = !bench.is_drawn_fast && ImGui::GetFrameCount() >= kFirstFrames;
     for (std::size_t index = 0; index < bench.seats.size(); ++index) {
       const Document& document = bench.seats[index]->document;
@@ -132,9 +139,10 @@ class Drive {
 
 void run(Workbench& bench) {
   Drive drive;
-  Gallery gallery;
+  Gallery gallery(bench.new_pane());
   const std::stop_callback waking(bench.services.stop, Window::wake);
   while (!bench.window.wants_to_close() && !bench.services.stop.stop_requested()) {
+    const double begin = Window::now();
     bench.window.begin_frame();
     obey_keys(bench);
     if (const auto dropped = bench.window.take_dropped(); !dropped.empty()) open_dropped(bench, dropped);
@@ -144,12 +152,19 @@ void run(Workbench& bench) {
     lay_out(bench, gallery);
     bench.window.end_frame();
     bench.left.clear();
-    drive.tell(bench);
+    drive.tell(bench, begin);
     if (bench.window.wants_to_close()) return;  // by a key or the menu: there is nothing to wait for
     const bool is_fresh =
         ImGui::GetFrameCount() < kFirstFrames || Window::now() - bench.window.last_input() < kAfterInput;
-    wait_for_change(bench, is_drawing(bench) ? 0.0 : is_fresh ? std::min(kFrame, rest) : rest);
+    wait_for_change(bench, is_drawing(bench) || gallery.is_drawing() ? 0.0
+                           : is_fresh                                ? std::min(kFrame, rest)
+                                                                     : rest);
   }
+}
+
+/// Whether the processor draws: then very many triangles take seconds.
+bool is_software(const std::string& device) {
+  return device.find("pipe") != std::string::npos;
 }
 
 void take_over(const Settings& settings, Workbench& bench) {
@@ -184,12 +199,13 @@ void view(const ViewServices& services, const ViewOptions& options) {
   Settings settings = read_settings(settings_file(), problem);
   Window window("ramify", {options.width > 0 ? options.width : settings.width,
                            options.height > 0 ? options.height : settings.height, options.is_driven});
-  Workbench bench{services, window, WidgetReport(options.is_driven)};
+  Workbench bench{services, window, WidgetReport(options.is_driven), is_software(window.device())};
   if (!problem.empty()) bench.say(problem, true);
   take_over(settings, bench);
   if (!window.notice().empty()) bench.report.say("NOTICE " + window.notice());
   bench.shows_gallery = options.shows_gallery && settings.shows_gallery;
-  for (Opened& tree : opened) bench.seats.push_back(std::make_unique<Seat>(std::move(tree)));
+  for (Opened& tree : opened)
+    bench.seats.push_back(std::make_unique<Seat>(std::move(tree), bench.new_pane()));
   bench.active = 0;
   run(bench);
   keep(settings, bench, options.shows_gallery);

@@ -100,7 +100,11 @@ void finish_writing(Workbench& bench) {
 
 }  // namespace
 
-Seat::Seat(Opened opened) : document(opened, Window::wake), panel(panel_of(opened)), watch(watch_of(opened)) {
+Seat::Seat(Opened opened, Pane own_pane)
+    : document(opened, Window::wake),
+      panel(panel_of(opened)),
+      pane(std::move(own_pane)),
+      watch(watch_of(opened)) {
   orbit.elevation_deg = 5.0;
 }
 
@@ -113,7 +117,7 @@ std::string seat_name(std::size_t index) {
 }
 
 void open_in_seat(Workbench& bench, std::size_t index, const std::string& input) {
-  auto seat = std::make_unique<Seat>(bench.services.open(input));
+  auto seat = std::make_unique<Seat>(bench.services.open(input), bench.new_pane());
   if (index < bench.seats.size()) {
     seat->orbit = bench.seats[index]->orbit;
     bench.left.push_back(std::exchange(bench.seats[index], std::move(seat)));
@@ -140,7 +144,7 @@ std::vector<Vec3> points_in_sight(const Workbench& bench, const Seat& seat) {
     const std::vector<Vec3> own = framing_points(*product);
     points.insert(points.end(), own.begin(), own.end());
     box.include(product->box);
-    if (!base) base = base_of({.mesh = &product->mesh, .skeleton = &product->skeleton});
+    if (!base) base = base_of({.skeleton = &product->skeleton, .outline = product->outline});
   }
   if (!bench.show.with_scale || !base) return points;
   const Annotations beside = annotations_beside(box, *base, seat.orbit.azimuth_deg);

@@ -28,7 +28,7 @@ struct FileWatch {
 
 /// A tree with its place in the window.
 struct Seat {
-  explicit Seat(Opened opened);
+  Seat(Opened opened, Pane own_pane);
 
   Document document;
   Panel panel;
@@ -51,6 +51,8 @@ struct Workbench {
   const ViewServices& services;
   Window& window;
   WidgetReport report;
+  bool is_drawn_in_software;
+  Programs programs = {};
 
   std::vector<std::unique_ptr<Seat>> seats = {};  // one or two
   std::vector<std::unique_ptr<Seat>> left =
@@ -71,6 +73,7 @@ struct Workbench {
   TreeDistances distances = {};           // while numbers are shown
   std::future<std::string> writing = {};  // what is to be said when a file is written
 
+  Pane new_pane() const { return Pane(programs, is_drawn_in_software); }
   Seat& seat() { return *seats[active]; }
   const Seat& seat() const { return *seats[active]; }
   Document& document() { return seat().document; }

@@ -24,8 +24,8 @@ constexpr int kDraftSides = 3;
 constexpr int kDraftSidesOfTrunk = 8;
 
 // A mesh of more triangles than this has a coarse one beside it, of about so many: they are drawn in a blink.
-constexpr std::size_t kManyTriangles = 600'000;
-constexpr std::size_t kCoarseTriangles = 400'000;
+constexpr std::size_t kManyTriangles = 400'000;
+constexpr std::size_t kCoarseTriangles = 250'000;
 
 // See surface_of().
 constexpr int kObstacleVoxels = 128;
@@ -61,7 +61,7 @@ std::uint64_t new_serial() {
 std::vector<Vec3> framing_points(const Product& product) {
   std::vector<Vec3> points;
   Box tree;
-  for (const Vec3f& position : product.mesh.positions) {
+  for (const Vec3f& position : product.outline) {
     points.emplace_back(position);
     tree.include(points.back());
   }
@@ -83,6 +83,7 @@ void dress(Product& product, const Order& order) {
     looks.mesher.lod += static_cast<int>(std::bit_width(product.mesh.triangles.size() / kCoarseTriangles));
     product.coarse = make_tree_mesh(product.skeleton, looks, seed).mesh;
   }
+  product.outline = outline_of(product.mesh.positions);
   for (const Vec3& position : product.skeleton.position) product.box.include(position);
   for (const Vec3f& position : product.mesh.positions) product.box.include(Vec3(position));
   if (order.job) {
@@ -119,9 +120,11 @@ std::unique_ptr<Product> Workshop::take() {
   return std::move(done_);
 }
 
-void Workshop::reuse(Mesh mesh) {
+void Workshop::retire(std::unique_ptr<Product> product, bool is_mesh_reused) {
   const std::lock_guard lock(mutex_);
-  spare_ = std::move(mesh);
+  if (is_mesh_reused) spare_ = std::move(product->mesh);
+  retired_.push_back(std::move(product));
+  wake_.notify_one();
 }
 
 WorkState Workshop::state() const {
@@ -133,9 +136,12 @@ void Workshop::work(const std::stop_token& ending) {
   while (true) {
     Order order;
     std::stop_token stop;
+    std::vector<std::unique_ptr<Product>> retired;
     {
       std::unique_lock lock(mutex_);
-      if (!wake_.wait(lock, ending, [this] { return next_.has_value(); })) return;
+      if (!wake_.wait(lock, ending, [this] { return next_ || !retired_.empty(); })) return;
+      retired.swap(retired_);
+      if (!next_) continue;
       order = std::move(*next_);
       next_.reset();
       running_ = std::stop_source();
@@ -144,6 +150,7 @@ void Workshop::work(const std::stop_token& ending) {
       running_since_ = now_seconds();
       state_ = {.is_busy = true, .stage = {}, .part = 0.0};
     }
+    retired.clear();
     std::unique_ptr<Product> product = make(order, stop);
     {
       const std::lock_guard lock(mutex_);

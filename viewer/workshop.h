@@ -45,6 +45,7 @@ struct Product {
   Mesh mesh;
   Mesh coarse;                             // the same with far fewer triangles, where the mesh has very many
   Mesh obstacles;                          // of the job
+  std::vector<Vec3f> outline;              // outline_of() the mesh
   Box box;                                 // around the tree, and the obstacles near it
   SkyLight sky;                            // of the mesh; empty for a draft
   std::shared_ptr<const Numbers> numbers;  // of what is shown; of a draft those of the tree before it
@@ -75,8 +76,9 @@ class Workshop {
   /// The newest product not taken yet.
   std::unique_ptr<Product> take();
 
-  /// A mesh that is no longer shown: the next one is written into its memory.
-  void reuse(Mesh mesh);
+  /// A product that is no longer shown: it goes on the workshop's thread, as that takes a while. Of a draft
+  /// that takes its place, the next mesh is written into the memory.
+  void retire(std::unique_ptr<Product> product, bool is_mesh_reused);
 
   WorkState state() const;
 
@@ -96,6 +98,7 @@ class Workshop {
   WorkState state_;
   std::unique_ptr<Product> done_;
   Mesh spare_;
+  std::vector<std::unique_ptr<Product>> retired_;
   std::jthread thread_;  // last: it uses all of the others
 };
 

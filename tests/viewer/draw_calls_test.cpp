@@ -6,7 +6,10 @@
 #include "common/mesh/tree_mesh.h"
 #include "growth/engine.h"
 #include "tests/catch.h"
+#include "viewer/offscreen_context.h"
+#include "viewer/pane.h"
 #include "viewer/renderer.h"
+#include "viewer/workshop.h"
 
 using namespace ramify;
 
@@ -22,10 +25,13 @@ void count_and_draw(GLenum mode, GLsizei count, GLenum type, const void* first) 
   draw_elements(mode, count, type, first);
 }
 
-/// epoxy calls through pointers, which are ours to turn once they are resolved.
+/// epoxy calls through pointers, which are ours to turn once they are resolved: by a call that draws nothing.
+/// Needs a current context.
 class DrawCounter {
  public:
   DrawCounter() {
+    glDrawElements(GL_TRIANGLES, 0, GL_UNSIGNED_INT, nullptr);
+    glGetError();  // of a context without vertices
     draw_elements = epoxy_glDrawElements;
     epoxy_glDrawElements = count_and_draw;
     calls = 0;
@@ -70,4 +76,79 @@ TEST_CASE("painter: a tree of any size is drawn in one call a material, and once
       CHECK(indices == static_cast<GLsizei>(3 * passes * tree.mesh.triangles.size()));
     }
   }
+}
+
+namespace {
+
+/// As the window's worker makes it.
+Product product_of(const std::string& preset, const std::string& key, const std::string& value) {
+  EngineRegistry engines;
+  growth::register_engine(engines);
+  const std::vector<Override> overrides = {{"--set", key, value}};
+  const auto job = std::make_shared<const Job>(load_job(engines, preset, overrides));
+  Product product;
+  product.job = job;
+  product.run = std::make_shared<const RunResult>(job->run({}));
+  dress(product, {.job = job});
+  return product;
+}
+
+struct Drawn {
+  Image image;
+  int calls = 0;     // for the picture and its shadows
+  int pictures = 0;  // that were asked for until it was there
+  int empty = 0;     // of these, how many there was nothing to show for
+};
+
+/// Until nothing is missing, as the window's pane does it.
+Drawn drawn_by_pane(const Product& product, bool is_gradual) {
+  const Orbit orbit = framed({}, framing_points(product), 1.0);
+  Pane pane({}, is_gradual);
+  const DrawCounter counter;
+  Drawn drawn;
+  do {
+    drawn.empty += pane.picture({{&product, std::nullopt}}, {}, orbit, 64, 64, Quality::finest) == 0 ? 1 : 0;
+    ++drawn.pictures;
+  } while (pane.is_unfinished());
+  drawn.image = pane.image();
+  drawn.calls = calls;
+  return drawn;
+}
+
+}  // namespace
+
+TEST_CASE("pane: a tree of five million triangles is one call a material, or part by part the same picture") {
+  const Product product = product_of("decurrent", "leaves.spacing", "0.0094");
+  REQUIRE(product.mesh.triangles.size() > 4'900'000);
+  REQUIRE(product.mesh.materials.size() == 2);
+  const OffscreenContext context;
+
+  // As a graphics device draws it: the shadows and the picture.
+  const Drawn at_once = drawn_by_pane(product, false);
+  CHECK(at_once.calls == 2 * 2);
+  CHECK(at_once.empty < at_once.pictures);
+
+  // As it is drawn in software: the coarse tree is on show while the fine one is drawn.
+  const Drawn in_parts = drawn_by_pane(product, true);
+  CHECK(in_parts.calls > 20);
+  CHECK(in_parts.pictures > in_parts.empty + 5);
+  CHECK(in_parts.image.rgba == at_once.image.rgba);
+}
+
+TEST_CASE("portion: parts follow each other, and what goes with the last comes alone") {
+  const Portion limited(true);
+  std::size_t done = 0;
+  std::size_t parts = 0;
+  TreePart part;
+  do {
+    part = limited.next(done, 120'000);
+    CHECK(part.first == done);
+    CHECK((part.is_last() ? part.first == 120'000 : part.end > part.first));
+    done = part.end;
+    ++parts;
+  } while (!part.is_last());
+  CHECK(parts > 2);
+  const TreePart all = Portion(false).next(0, 120'000);
+  CHECK(all.is_first());
+  CHECK(all.is_last());
 }

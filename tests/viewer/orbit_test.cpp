@@ -1,7 +1,11 @@
 #include "viewer/orbit.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/catch.h"
 #include "tests/viewer/close.h"
+#include "viewer/scene.h"
 
 using namespace ramify;
 using ramify::test::is_close;
@@ -78,4 +82,35 @@ TEST_CASE("orbit: from within the tree the near plane stays before the eye") {
   const Camera camera = camera_of(orbit, 1.0, some_box(), 20.0);
   CHECK(is_close(camera.near_distance, 0.005));
   CHECK(camera.far_distance > 20.0);
+}
+
+TEST_CASE("outline: few points of very many take up as much room as all of them, from any side") {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 400'000; ++i) {  // a ball with a longer side, filled by a golden spiral
+    const double height = 1.0 - 2.0 * (i + 0.5) / 400'000;
+    const double round = std::sqrt(1.0 - height * height);
+    const double angle = 2.399963 * i;
+    const double radius = std::cbrt(static_cast<double>(i * 7919LL % 400'000) / 400'000.0);
+    points.emplace_back(radius *
+                        Vec3(3.0 * round * std::cos(angle), 5.0 * height, 3.0 * round * std::sin(angle)));
+  }
+  const std::vector<Vec3f> outline = outline_of(points);
+  CHECK(outline.size() < points.size() / 4);
+  const auto reach = [](const std::vector<Vec3f>& of, const Vec3f& towards) {
+    float most = -1e9f;
+    for (const Vec3f& point : of) most = std::max(most, glm::dot(point, towards));
+    return most;
+  };
+  for (int i = 0; i < 50; ++i) {
+    const float height = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / 50.0f;
+    const float round = std::sqrt(1.0f - height * height);
+    const float angle = 2.399963f * static_cast<float>(i);
+    const Vec3f towards(round * std::cos(angle), height, round * std::sin(angle));
+    CHECK(reach(outline, towards) > 0.995f * reach(points, towards));
+  }
+  for (const Vec3f& axis : {Vec3f(1, 0, 0), Vec3f(0, -1, 0), Vec3f(0, 0, 1)}) {
+    CHECK(reach(outline, axis) == reach(points, axis));
+  }
+  points.resize(1000);
+  CHECK(outline_of(points) == points);
 }

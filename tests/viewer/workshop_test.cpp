@@ -91,12 +91,14 @@ TEST_CASE(
 TEST_CASE("workshop: a draft is written into the memory of the one before") {
   Workshop workshop([] {});
   workshop.order({.number = 1, .job = job_of<growth::Engine>(8), .is_draft = true});
-  const auto first = awaited(workshop);
+  auto first = awaited(workshop);
   REQUIRE(first);
+  const auto job = first->job;
+  const auto run = first->run;
   const Vec3f* memory = first->mesh.positions.data();
   const auto positions = first->mesh.positions;
-  workshop.reuse(std::move(first->mesh));
-  workshop.order({.number = 2, .job = first->job, .run = first->run, .is_draft = true});
+  workshop.retire(std::move(first), true);
+  workshop.order({.number = 2, .job = job, .run = run, .is_draft = true});
   const auto second = awaited(workshop);
   REQUIRE(second);
   CHECK(second->mesh.positions.data() == memory);
