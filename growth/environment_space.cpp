@@ -49,9 +49,10 @@ void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step) {
     const double min_cosine = std::cos(radians(tree.place.theta_deg.at(step) / 2.0));
     for (std::size_t i = 0; i < tree.plant.buds.size(); ++i) {
       const Bud& bud = tree.plant.buds[i];
-      tree.space[i] = bud.direction;
+      const Vec3f& direction = tree.plant.bud_direction[i];
+      tree.space[i] = direction;
       if (bud.is_blind || markers.is_barren(tree.plant.position[bud.node])) continue;
-      seekers.push_back({tree.plant.position[bud.node], Vec3(bud.direction), radius, min_cosine});
+      seekers.push_back({tree.plant.position[bud.node], Vec3(direction), radius, min_cosine});
       tree.light[i] = 1.0;  // that it looks; for the second pass
     }
   }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <span>
 
+#include "common/base/parallel.h"
+
 namespace ramify::growth {
 namespace {
 
+constexpr std::size_t kBudsPerTask = 8192;
 constexpr std::size_t kClearedAhead = 256;  // nodes: some kilobytes of sums
 
 /// Of this size; what they were before is lost where they move.
@@ -15,25 +18,47 @@ void for_new_values(std::vector<T>& values, std::size_t size) {
   set_size(values, size);
 }
 
+/// Sets the sums to what the buds at each node have. On all threads: buds stand by node, and each task takes
+/// all buds of its nodes.
+void sum_buds(const Plant& plant, const std::vector<double>& light, std::vector<Sides>& sums) {
+  const std::vector<Bud>& buds = plant.buds;
+  if (buds.empty()) std::fill(sums.begin(), sums.end(), Sides{});
+  const auto first_at_node = [&](std::size_t i) {
+    while (i > 0 && i < buds.size() && buds[i].node == buds[i - 1].node) ++i;
+    return i;
+  };
+  const auto first_node = [&](std::size_t i) {
+    if (i == 0) return std::size_t{0};
+    return i < buds.size() ? std::size_t{buds[i].node} : sums.size();
+  };
+  parallel_for(buds.size(), kBudsPerTask, [&](std::size_t begin, std::size_t end) {
+    begin = first_at_node(begin);
+    end = first_at_node(end);
+    if (begin >= end) return;
+    // Cleared a little ahead of the buds: so the sums come from memory once.
+    std::size_t cleared = first_node(begin);
+    const std::size_t last = first_node(end);
+    const auto clear_to = [&](std::size_t node) {
+      const std::size_t next = std::min(node, last);
+      std::fill(sums.begin() + cleared, sums.begin() + next, Sides{});
+      cleared = next;
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      const Bud& bud = buds[i];
+      if (bud.node >= cleared) clear_to(bud.node + kClearedAhead);
+      sums[bud.node][side_of(bud)] += light[i];
+    }
+    clear_to(last);
+  });
+}
+
 }  // namespace
 
 void sum_light(const Plant& plant, const std::vector<double>& light, LightSums& sums) {
   const std::size_t count = plant.node_count();
   for_new_values(sums.light, count);
   for_new_values(sums.internodes, count);
-  // Cleared a little ahead of the buds, which stand by node: so the sums come from memory once.
-  std::size_t cleared = 0;
-  const auto clear_to = [&](std::size_t end) {
-    const std::size_t last = std::min(end, count);
-    std::fill(sums.light.begin() + cleared, sums.light.begin() + last, Sides{});
-    cleared = last;
-  };
-  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
-    const Bud& bud = plant.buds[i];
-    if (bud.node >= cleared) clear_to(bud.node + kClearedAhead);
-    sums.light[bud.node][side_of(bud)] += light[i];
-  }
-  clear_to(count);
+  sum_buds(plant, light, sums.light);
 
   std::fill(sums.internodes.begin(), sums.internodes.end(), 0);
   const std::span parent(plant.parent);

@@ -14,6 +14,14 @@ struct Frame {
   Vec3 reference{1, 0, 0};
 };
 
+/// An angle as its cosine and sine.
+struct Turn {
+  explicit Turn(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
+
+  double cosine;
+  double sine;
+};
+
 /// The numbers of a step that buds are placed by; radians.
 struct BudAngles {
   BudAngles(const TreeParameters& tree, int step);
@@ -23,6 +31,7 @@ struct BudAngles {
   double sine;    // likewise
   double divergence;
   double jitter;
+  std::vector<Turn> first_turns;  // without jitter, of the buds of an axis's first nodes, node by node
 };
 
 /// Axillary buds of a node: 1, 2 or whorl_buds.

@@ -84,6 +84,7 @@ void close_nodes(Plant& plant) {
 
 void close_buds(Plant& plant) {
   Bud* const buds = plant.buds.data();
+  Vec3f* const direction = plant.bud_direction.data();
   const std::uint32_t* const parent = plant.parent.data();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < plant.buds.size(); ++i) {
@@ -91,9 +92,11 @@ void close_buds(Plant& plant) {
     const std::uint32_t node = bud.is_dead() ? 0 : bud.node;
     const bool is_cut = (node != 0) & (parent[node] == kNone);
     buds[kept] = bud;
+    direction[kept] = direction[i];
     kept += !(bud.is_dead() | is_cut);
   }
   plant.buds.resize(kept);
+  plant.bud_direction.resize(kept);
 }
 
 }  // namespace
@@ -113,7 +116,8 @@ Plant seedling(const TreePlace& place, Site site) {
   trunk.reference = Vec3f(perpendicular_at(kUp, azimuth));
   plant.axes.push_back(trunk);
   plant.axes_founded = 1;
-  plant.buds.push_back({.node = 0, .site = site, .direction = Vec3f(kUp), .is_terminal = true});
+  plant.buds.push_back({.node = 0, .site = site, .is_terminal = true});
+  plant.bud_direction.push_back(Vec3f(kUp));
   return plant;
 }
 

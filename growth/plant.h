@@ -28,7 +28,6 @@ struct Bud {
   std::uint32_t node =
       0;          // where it stands, on the axis it continues or branches off; kNone: dead in this step
   Site site = 0;  // the node's voxel
-  Vec3f direction{0, 1, 0};  // unit, default direction of its first metamer
   std::uint16_t birth_step = 0;
   bool is_terminal = false;
   bool is_blind = false;  // space: it will never see a marker again
@@ -47,7 +46,8 @@ struct Plant {
   std::vector<std::uint32_t> id;          // how many nodes were made before it; only where a history is kept
 
   std::vector<Axis> axes;
-  std::vector<Bud> buds;  // by node; those that died in a step stay to its end
+  std::vector<Bud> buds;             // by node; those that died in a step stay to its end
+  std::vector<Vec3f> bud_direction;  // of each, unit: default direction of its first metamer
 
   std::uint32_t axes_founded = 0;  // ever, the trunk too
   std::uint32_t cut_nodes = 0;     // holes in the arrays

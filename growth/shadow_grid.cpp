@@ -7,6 +7,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "common/base/memory.h"
 #include "common/base/parallel.h"
 
 namespace ramify::growth {
@@ -16,6 +17,9 @@ namespace {
 using Voxels = openvdb::tree::Tree3<Shadow, 4, kLeafShift>::Type;
 using Leaf = Voxels::LeafNodeType;
 static_assert(Leaf::DIM == kLeafEdge && Leaf::SIZE == kLeafSize);
+
+// Leaves in the same large page that are worth one: half of it.
+constexpr std::uint32_t kLeavesToGather = 512;
 
 // Casters that are worth more than one thread.
 constexpr std::size_t kCastersToShare = 1024;
@@ -232,7 +236,9 @@ std::uint32_t ShadowGrid::touch(const Coord& leaf) {
   if (number != 0) return number;
   leaves_.reserve(leaf, leaf);
   const openvdb::Coord origin(leaf.x * kLeafEdge, leaf.y * kLeafEdge, leaf.z * kLeafEdge);
-  return leaves_.add(leaf, tree_->voxels.touchLeaf(origin)->buffer().data());
+  Shadow* const buffer = tree_->voxels.touchLeaf(origin)->buffer().data();
+  if (++leaves_in_page_[large_page_of(buffer)] == kLeavesToGather) gather_in_large_page(buffer);
+  return leaves_.add(leaf, buffer);
 }
 
 void ShadowGrid::touch_all(const Coord& first, const Coord& last) {

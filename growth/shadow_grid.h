@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "common/config/layer.h"
@@ -68,7 +69,8 @@ class ShadowGrid {
   double voxel_size_;
   ShadowStencil stencil_;
   std::unique_ptr<Tree> tree_;
-  LeafTable leaves_;  // of the tree
+  LeafTable leaves_;                                                  // of the tree
+  std::unordered_map<std::uintptr_t, std::uint32_t> leaves_in_page_;  // large pages
 };
 
 }  // namespace ramify::growth

@@ -30,6 +30,7 @@ class Builder {
     make_room(plant_.lost_tips, nodes);
     make_room(plant_.axes, shoots);
     make_room(plant_.buds, nodes * traces_.buds_per_node + shoots);
+    make_room(plant_.bud_direction, nodes * traces_.buds_per_node + shoots);
   }
 
   void build(const Shoot& shoot) {
@@ -91,7 +92,7 @@ class Builder {
       reference = Vec3f(transported(Vec3(reference), Vec3(shoot.end_direction), Vec3(direction)));
     }
     plant_.axes[axis].reference = reference;
-    add_bud({.node = node, .direction = direction, .is_terminal = true}, slot, kNone);
+    add_bud({.node = node, .is_terminal = true}, direction, slot, kNone);
   }
 
   void add_all_axillary_buds(std::uint32_t node, std::size_t slot) {
@@ -108,18 +109,20 @@ class Builder {
 
   void add_axillary_bud(std::uint32_t node, std::size_t slot, std::size_t i, std::uint32_t spent) {
     const Vec3f direction = traces_.axillary[slot * traces_.buds_per_node + i];
-    add_bud({.node = node, .direction = direction}, slot, spent);
+    add_bud({.node = node}, direction, slot, spent);
   }
 
-  void add_bud(Bud bud, std::size_t slot, std::uint32_t spent) {
+  void add_bud(Bud bud, const Vec3f& direction, std::size_t slot, std::uint32_t spent) {
     const Coord& voxel = traces_.voxel[slot];
     if (is_light_) bud.site = shadow_.site_of(voxel);
     bud.birth_step = step_;
     if (buds_cast_) changes_.added.push_back(voxel);
     if (spent == kNone) {
       plant_.buds.push_back(bud);
+      plant_.bud_direction.push_back(direction);
     } else {
       plant_.buds[spent] = bud;
+      plant_.bud_direction[spent] = direction;
     }
   }
 
@@ -145,9 +148,20 @@ void build_shoots(Plant& plant, std::span<const Shoot> shoots, const Traces& tra
 }
 
 void sort_buds(Plant& plant) {
-  std::erase_if(plant.buds, [](const Bud& bud) { return bud.is_dead(); });
-  std::stable_sort(plant.buds.begin(), plant.buds.end(),
-                   [](const Bud& a, const Bud& b) { return a.node < b.node; });
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < plant.buds.size(); ++i) {
+    if (!plant.buds[i].is_dead()) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return plant.buds[a].node < plant.buds[b].node; });
+  std::vector<Bud> buds;
+  std::vector<Vec3f> direction;
+  for (const std::uint32_t i : order) {
+    buds.push_back(plant.buds[i]);
+    direction.push_back(plant.bud_direction[i]);
+  }
+  plant.buds = std::move(buds);
+  plant.bud_direction = std::move(direction);
 }
 
 void abort_buds(Plant& plant, const Parameters& world, const TreeParameters& tree, const ShadowGrid& shadow,

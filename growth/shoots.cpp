@@ -11,13 +11,17 @@ namespace {
 
 // v is a sum of many shares: one that rounding left a hair below a whole number counts as that number.
 constexpr double kVigourSlack = 1e-9;
+constexpr double kLeastVigour = 1.0 - kVigourSlack;
+
+constexpr std::size_t kBudsAtOnce = 4096;
 
 constexpr std::size_t kShootsPerTask = 256;
 constexpr std::size_t kReadAhead = 4;
+constexpr std::size_t kNodesAhead = 12;
 
 /// A bud's v after the cap, or 0 where it rests.
 double capped_vigour(double vigour, double cap) {
-  if (vigour < 1.0 - kVigourSlack) return 0.0;
+  if (vigour < kLeastVigour) return 0.0;
   return cap > 0.0 ? std::min(vigour, cap) : vigour;
 }
 
@@ -69,11 +73,16 @@ class Tracer {
         w_optimal_(guides.tree.w_optimal.at(step)),
         turn_max_(guides.tree.turn_max.at(step)) {}
 
-  /// Begins to fetch what trace() will read.
+  /// Begins to fetch what prefetch() will read, then what trace() will.
+  void prefetch_node(const Shoot& shoot) const {
+    const std::uint32_t node = plant_.buds[shoot.bud].node;
+    __builtin_prefetch(&plant_.position[node]);
+    __builtin_prefetch(&plant_.axis[node]);
+  }
   void prefetch(const Shoot& shoot) const {
     const Bud& bud = plant_.buds[shoot.bud];
     if (guides_.world.environment == Environment::light)
-      seeker_.prefetch(plant_.position[bud.node], Vec3(bud.direction));
+      seeker_.prefetch(plant_.position[bud.node], Vec3(plant_.bud_direction[shoot.bud]));
   }
 
   void trace(Shoot& shoot, Traces& traces) const {
@@ -81,7 +90,7 @@ class Tracer {
     const Axis& axis = plant_.axes[plant_.axis[bud.node]];
     const int order = axis.order + (bud.is_terminal ? 0 : 1);
     std::uint32_t rank = bud.is_terminal ? axis.node_count - 1 : kNone;  // of a new axis the next is 0
-    Frame frame{Vec3(bud.direction), Vec3(axis.reference)};
+    Frame frame{Vec3(plant_.bud_direction[shoot.bud]), Vec3(axis.reference)};
     if (!bud.is_terminal) frame.reference = first_reference(shoot.axis_id, frame.direction);
     Vec3 apex = plant_.position[bud.node];
     set_node(traces, shoot.first, apex);
@@ -171,15 +180,35 @@ ShootPlanner::ShootPlanner(const Plant& plant, const std::vector<double>& vigour
       length_(tree.internode_length.at(step)),
       next_axis_(plant.axes_founded) {}
 
+/// Picks the buds with v >= 1 among the next ones, without a branch: which they are is hard to foretell.
+/// False if there are no more.
+bool ShootPlanner::pick_buds() {
+  const std::size_t end = std::min(next_bud_ + kBudsAtOnce, vigour_.size());
+  next_pick_ = 0;
+  picked_.resize(kBudsAtOnce);
+  std::size_t count = 0;
+  for (; next_bud_ < end; ++next_bud_) {
+    picked_[count] = next_bud_;
+    count += vigour_[next_bud_] >= kLeastVigour;
+  }
+  picked_.resize(count);
+  return count > 0 || next_bud_ < vigour_.size();
+}
+
 std::vector<Shoot> ShootPlanner::next(std::size_t most) {
   std::vector<Shoot> shoots;
-  for (; next_bud_ < vigour_.size() && shoots.size() < most; ++next_bud_) {
-    const double capped = capped_vigour(vigour_[next_bud_], cap_);
+  while (shoots.size() < most) {
+    if (next_pick_ == picked_.size()) {
+      if (!pick_buds()) break;
+      continue;
+    }
+    const std::uint32_t picked = picked_[next_pick_++];
+    const double capped = capped_vigour(vigour_[picked], cap_);
     const double count = metamer_count(capped);
-    const Bud& bud = plant_.buds[next_bud_];
+    const Bud& bud = plant_.buds[picked];
     if (count < 1.0 || bud.is_dead()) continue;
     Shoot shoot;
-    shoot.bud = next_bud_;
+    shoot.bud = picked;
     shoot.planned = static_cast<std::uint32_t>(count);
     shoot.axis_id = bud.is_terminal ? plant_.axes[plant_.axis[bud.node]].id : next_axis_++;
     shoot.metamer_length = length_ * capped / count;
@@ -203,6 +232,7 @@ Traces trace_shoots(std::span<Shoot> shoots, const Plant& plant, const Guides& g
   // What the shoots to come will read is fetched ahead, for it lies anywhere.
   parallel_for(shoots.size(), kShootsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (i + kNodesAhead < end) tracer.prefetch_node(shoots[i + kNodesAhead]);
       if (i + kReadAhead < end) tracer.prefetch(shoots[i + kReadAhead]);
       tracer.trace(shoots[i], traces);
     }

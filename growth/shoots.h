@@ -45,10 +45,14 @@ class ShootPlanner {
   std::vector<Shoot> next(std::size_t most);
 
  private:
+  bool pick_buds();
+
   const Plant& plant_;
   const std::vector<double>& vigour_;
   double cap_;
   double length_;
+  std::vector<std::uint32_t> picked_;  // buds that grow, of those up to next_bud_
+  std::size_t next_pick_ = 0;
   std::uint32_t next_bud_ = 0;
   std::uint32_t next_axis_;
 };

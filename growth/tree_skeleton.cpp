@@ -62,6 +62,7 @@ Skeleton skeleton_of(GrowingTree tree, const Parameters& world) {
   skeleton.vigour = skeleton_sums(tree, tree.vigour);
   release(tree.vigour);
   release(plant.buds);
+  release(plant.bud_direction);
   const PipeModel pipe{.exponent = world.pipe_exponent, .tip_diameter = world.tip_diameter};
   if (tree.history) {
     take_history(*tree.history, skeleton);

@@ -2,6 +2,7 @@
 
 #include "common/base/memory.h"
 
+#include <numeric>
 #include <vector>
 
 #include "tests/catch.h"
@@ -44,4 +45,13 @@ TEST_CASE("memory: a process fits if all of them may grow to what is expected") 
   CHECK(fits({0, 0}, 300, 1000));
   CHECK_FALSE(fits({0, 0}, 301, 1000));
   CHECK(fits({800, 900}, 300, 400));  // those that have more already take no further
+}
+
+TEST_CASE("memory: what is gathered in a large page stays as it is") {
+  std::vector<int> values(3'000'000);
+  std::iota(values.begin(), values.end(), 0);
+  const int* const middle = &values[values.size() / 2];
+  CHECK(large_page_of(middle) > large_page_of(values.data()));
+  gather_in_large_page(middle);
+  for (std::size_t i = 0; i < values.size(); ++i) REQUIRE(values[i] == static_cast<int>(i));
 }

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "common/base/rng.h"
 #include "growth/simulation.h"
 #include "tests/catch.h"
 #include "tests/growth/plants.h"
@@ -209,5 +210,32 @@ TEST_CASE("allocation: so it is with every model and demand, whatever the preset
       parameters.steps = std::min(parameters.steps, 12);
       check_conservation(parameters);
     }
+  }
+}
+
+TEST_CASE("light sums: many buds at many nodes, shared among threads, add up as one after the other") {
+  Plant plant = test::seedling();
+  plant.buds.clear();
+  plant.bud_direction.clear();
+  Rng random = Rng::stream(3, Stream::dart, 0);
+  std::vector<double> light;
+  std::vector<double> expected = {0.0};
+  for (std::uint32_t node = 1; node < 20000; ++node) {
+    add_node(plant, node - 1, 0);
+    expected.push_back(0.0);
+    for (std::uint64_t bud = random.below(5); bud > 0; --bud) {
+      add_bud(plant, {.node = node});
+      light.push_back(random.uniform());
+      expected[node] += light.back();
+    }
+  }
+  std::vector<double> alone = expected;
+  for (std::size_t node = expected.size(); node-- > 1;) expected[node - 1] += expected[node];
+  LightSums sums;
+  for (int again = 0; again < 2; ++again)
+    sum_light(plant, light, sums);  // nothing is left of the time before
+  for (std::size_t node = 0; node < expected.size(); ++node) {
+    REQUIRE(sums.light[node][kLateral] == alone[node]);
+    REQUIRE(std::abs(sums.total(node) - expected[node]) <= 1e-9 * (1.0 + expected[node]));
   }
 }

@@ -21,6 +21,7 @@ using Nodes = std::vector<std::uint32_t>;
 Plant forked() {
   Plant plant = test::seedling();
   plant.buds.clear();
+  plant.bud_direction.clear();
   add_node(plant, 0, 0);
   add_node(plant, 1, 0);
   add_node(plant, 1, 1);
@@ -63,6 +64,7 @@ TEST_CASE("cutting: closing the holes leaves the living as they were") {
   Plant plant = forked();
   plant.position[5] = {5, 5, 5};
   plant.buds = {{.node = kNone}, {.node = 4}, {.node = 5, .is_terminal = true}};
+  plant.bud_direction.resize(plant.buds.size());
   cut_away(plant, nodes_beyond(plant, {3}));
   compact(plant, 0.9);
   CHECK(plant.node_count() == 6);  // not enough of them yet
@@ -81,7 +83,7 @@ TEST_CASE("shedding: an axis is judged by light an internode, not before its tim
   TreeParameters tree;
   tree.shed_threshold = 0.5;
   Plant plant = forked();
-  plant.buds.push_back({.node = 4, .is_terminal = true});
+  add_bud(plant, {.node = 4, .is_terminal = true});
   LightSums sums;
   sum_light(plant, {1.0}, sums);
   CHECK(shaded_axes(plant, sums, tree, 2).empty());  // 1 / 2 is not below

@@ -37,7 +37,7 @@ TEST_CASE("light: nothing shades itself and everything below is shaded") {
   ShadowGrid shadow({.a = 0.2, .b = 2, .q_max = 4}, 1.0);
   Plant plant = test::seedling(shadow.site_of({0, 0, 0}));
   add_node(plant, 0, 0, {0, -2, 0});
-  plant.buds.push_back({.node = 1, .site = shadow.site_of({0, -2, 0})});
+  add_bud(plant, {.node = 1, .site = shadow.site_of({0, -2, 0})});
   shadow.cast(std::vector<Coord>{{0, 0, 0}, {0, -2, 0}});
   const std::vector<double> light = sensed(plant, parameters, shadow);
   CHECK(light[0] == 1.0);

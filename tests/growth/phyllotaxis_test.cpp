@@ -50,7 +50,7 @@ TEST_CASE("phyllotaxis: buds stand at the branching angle, at the azimuths that 
   const Frame frame = slanted();
   for (const Pattern& pattern : patterns) {
     tree.phyllotaxis = pattern.kind;
-    for (std::uint32_t rank = 0; rank < 10; ++rank) {
+    for (std::uint32_t rank = 0; rank < 80; ++rank) {
       const std::vector<Vec3> found = buds(tree, frame, rank);
       REQUIRE(found.size() == pattern.first.size());
       for (std::size_t i = 0; i < found.size(); ++i) {

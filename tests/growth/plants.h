@@ -26,4 +26,9 @@ inline std::uint32_t add_node(growth::Plant& plant, std::uint32_t parent, std::u
   return node;
 }
 
+inline void add_bud(growth::Plant& plant, const growth::Bud& bud, const Vec3f& direction = Vec3f(kUp)) {
+  plant.buds.push_back(bud);
+  plant.bud_direction.push_back(direction);
+}
+
 }  // namespace ramify::test

@@ -141,7 +141,7 @@ TEST_CASE("shoots: tropisms act on their axis orders alone, and plagiotropism ta
   CHECK(std::abs(trunk.x - trunk.y) < 1e-9);
 
   std::vector<double> vigour(plant.buds.size(), 0.0);
-  const Vec3 bud(plant.buds[0].direction);
+  const Vec3 bud(plant.bud_direction[0]);
   REQUIRE_FALSE(plant.buds[0].is_terminal);
   vigour[0] = 1.0;
   grow(plant, parameters, vigour, 2);
@@ -200,7 +200,7 @@ TEST_CASE("shoots: a sympodial axis goes on from the axillary bud at its tip") {
     const Bud& tip = plant.buds.back();
     REQUIRE(tip.is_terminal);
     CHECK(tip.node == 3);
-    CHECK(std::abs(degrees(std::acos(double(tip.direction.y))) - 30.0) < 1e-3);
+    CHECK(std::abs(degrees(std::acos(double(plant.bud_direction.back().y))) - 30.0) < 1e-3);
     std::vector<double> vigour(plant.buds.size(), 0.0);
     vigour.back() = 2.0;
     grow(plant, parameters, vigour, 2);
@@ -240,4 +240,25 @@ TEST_CASE("buds: one that has rested for bud_lifespan steps dies, one that grew 
   parameters.casters = Casters::buds;
   abort_buds(plant, parameters, parameters, shadow, 6, changes);
   CHECK(changes.removed.size() == 2);
+}
+
+TEST_CASE("shoots: the planner finds every bud with resource, in order, however few it is asked for") {
+  Plant plant = test::seedling();
+  std::vector<double> vigour = {0.0};
+  std::vector<std::uint32_t> growing;
+  for (std::uint32_t bud = 1; bud < 10000; ++bud) {
+    add_bud(plant, {.node = 0, .is_terminal = true});
+    const bool grows = bud % 7 == 0 || bud > 9900;
+    vigour.push_back(grows ? 1.0 - 1e-12 : 1.0 - 1e-6);
+    if (grows) growing.push_back(bud);
+  }
+  for (const std::size_t most : {1, 100, 5000}) {
+    ShootPlanner planner(plant, vigour, {}, 1);
+    std::vector<std::uint32_t> found;
+    for (auto shoots = planner.next(most); !shoots.empty(); shoots = planner.next(most)) {
+      CHECK(shoots.size() <= most);
+      for (const Shoot& shoot : shoots) found.push_back(shoot.bud);
+    }
+    CHECK(found == growing);
+  }
 }

@@ -177,7 +177,7 @@ TEST_CASE("world: markers near wood are gone, and a bud has Q = 1 only where one
     for (const auto& marker : markers.points) {
       const Vec3 towards = Vec3(marker) - apex;
       const double distance = glm::length(towards);
-      is_seen = is_seen || (distance <= 0.4 + 1e-6 && glm::dot(towards, Vec3(bud.direction)) >=
+      is_seen = is_seen || (distance <= 0.4 + 1e-6 && glm::dot(towards, Vec3(tree.plant.bud_direction[i])) >=
                                                           std::cos(radians(45.0)) * distance - 1e-6);
     }
     CHECK(is_seen);
