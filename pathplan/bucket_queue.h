@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,10 @@ enum class QueueOrder { rough, exact };
 
 // A queue needs no more buckets than this: costs that vary very much get wider ones.
 inline constexpr double kBucketsMax = 4096.0;
+
+// So many nodes before it is taken, a node had better be made ready: while memory is waited for, about as
+// many others are looked at.
+inline constexpr std::size_t kSoon = 4;
 
 template <QueueOrder order>
 class BucketQueue {
@@ -35,80 +41,76 @@ class BucketQueue {
   /// Buckets are `width` wide. What is pushed costs at most `heaviest` more than what was taken last.
   BucketQueue(double width, double heaviest)
       : buckets_per_cost_(1.0 / width),
-        heads_(std::bit_ceil(static_cast<std::size_t>(heaviest / width) + 3), kNone) {}
-
-  bool is_empty() const { return size_ == 0; }
-
-  /// A node that will be taken soon, likely next, to be made ready for that; any at first.
-  std::uint32_t soon() const { return soon_; }
+        buckets_(std::bit_ceil(static_cast<std::size_t>(heaviest / width) + 3)) {}
 
   void push(double cost, std::uint32_t node) {
-    ++size_;
-    const auto bucket = static_cast<std::size_t>(cost * buckets_per_cost_);
-    if (order == QueueOrder::exact && bucket <= current_) {
-      sorted_.push_back({cost, node});
-      std::push_heap(sorted_.begin(), sorted_.end(), std::greater<>());
+    const auto number = static_cast<std::size_t>(cost * buckets_per_cost_);
+    if (number > current_) {
+      bucket(number).push_back({cost, node});
+      ++waiting_;
       return;
     }
-    std::uint32_t& head = heads_[bucket & (heads_.size() - 1)];
-    if (free_ == kNone) {
-      slots_.push_back({cost, node, head});
-      head = static_cast<std::uint32_t>(slots_.size() - 1);
-    } else {
-      const std::uint32_t slot = std::exchange(free_, slots_[free_].next);
-      slots_[slot] = {cost, node, head};
-      head = slot;
+    open_.push_back({cost, node});
+    if (order == QueueOrder::exact) std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  }
+
+  /// Takes out the next node; nothing if none is left. `costs`, by node: those that have become less than
+  /// what a node was pushed with make its older entries be passed over.
+  std::optional<Entry> pop(std::span<const double> costs) {
+    while (true) {
+      while (taken_ < open_.size()) {
+        const Entry entry = take();
+        if (is_valid(entry, costs)) return entry;
+      }
+      if (waiting_ == 0) return std::nullopt;
+      open_next_bucket(costs);
     }
   }
 
-  /// Not when it is empty.
-  Entry pop() {
-    --size_;
-    if constexpr (order == QueueOrder::exact) {
-      while (sorted_.empty()) sort_next_bucket();
-      std::pop_heap(sorted_.begin(), sorted_.end(), std::greater<>());
-      const Entry least = sorted_.back();
-      sorted_.pop_back();
-      return least;
-    } else {
-      while (heads_[current_ & (heads_.size() - 1)] == kNone) ++current_;
-      return take_first(heads_[current_ & (heads_.size() - 1)]);
-    }
+  /// The node that will likely be taken after `ahead` others, to be made ready for that; 0 if none is known.
+  std::uint32_t soon(std::size_t ahead) const {
+    const std::size_t i = taken_ + ahead;
+    return i < open_.size() ? open_[i].node : 0;
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
-
-  struct Slot {
-    double cost;
-    std::uint32_t node;
-    std::uint32_t next;  // in its bucket, or among the free ones
-  };
-
-  Entry take_first(std::uint32_t& head) {
-    const std::uint32_t slot = head;
-    const Entry entry{slots_[slot].cost, slots_[slot].node};
-    head = std::exchange(slots_[slot].next, free_);
-    free_ = slot;
-    if (head != kNone) soon_ = slots_[head].node;
-    return entry;
+  static bool is_valid(const Entry& entry, std::span<const double> costs) {
+    return entry.cost <= costs[entry.node];
   }
 
-  void sort_next_bucket() {
-    std::uint32_t* head = &heads_[current_ & (heads_.size() - 1)];
-    while (*head == kNone) head = &heads_[++current_ & (heads_.size() - 1)];
-    while (*head != kNone) sorted_.push_back(take_first(*head));
-    std::make_heap(sorted_.begin(), sorted_.end(), std::greater<>());
+  std::vector<Entry>& bucket(std::size_t number) { return buckets_[number & (buckets_.size() - 1)]; }
+
+  Entry take() {
+    if (order == QueueOrder::rough) return open_[taken_++];
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    const Entry least = open_.back();
+    open_.pop_back();
+    return least;
+  }
+
+  /// The next one that was pushed to.
+  void open_next_bucket(std::span<const double> costs) {
+    open_.clear();
+    taken_ = 0;
+    while (bucket(current_).empty()) ++current_;
+    std::swap(open_, bucket(current_));
+    waiting_ -= open_.size();
+    // Which entries are valid cannot be foreseen: the others are dropped at once, without a branch.
+    std::size_t count = 0;
+    for (const Entry& entry : open_) {
+      open_[count] = entry;
+      count += is_valid(entry, costs) ? 1 : 0;
+    }
+    open_.resize(count);
+    if (order == QueueOrder::exact) std::make_heap(open_.begin(), open_.end(), std::greater<>());
   }
 
   double buckets_per_cost_;
-  std::vector<std::uint32_t> heads_;  // of each bucket, its first slot
-  std::vector<Slot> slots_;
-  std::uint32_t free_ = kNone;  // the first slot that is not in use
-  std::size_t current_ = 0;     // the bucket that is being emptied
-  std::vector<Entry> sorted_;   // exact: a heap of what it holds
-  std::size_t size_ = 0;        // entries
-  std::uint32_t soon_ = 0;
+  std::vector<std::vector<Entry>> buckets_;
+  std::size_t waiting_ = 0;  // entries in them
+  std::size_t current_ = 0;  // the number of the bucket that is open
+  std::vector<Entry> open_;  // what it holds; exact: a heap
+  std::size_t taken_ = 0;    // rough: so many of them have been taken
 };
 
 }  // namespace ramify::pathplan

@@ -8,17 +8,18 @@ namespace ramify::pathplan {
 void link_nodes(Graph& graph) {
   graph.first.assign(graph.nodes.size() + 1, 0);
   for (const auto& [a, b] : graph.edges) {
-    ++graph.first[a + 1];
-    ++graph.first[b + 1];
+    ++graph.first[a];
+    ++graph.first[b];
   }
   std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());
 
+  // From the last edge to the first: `first` comes down from the ends of the nodes' links to their
+  // beginnings.
   graph.links.resize(2 * graph.edges.size());
-  std::vector<std::uint32_t> next(graph.first.begin(), graph.first.end() - 1);
-  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+  for (std::size_t i = graph.edges.size(); i-- > 0;) {
     const auto [a, b] = graph.edges[i];
-    graph.links[next[a]++] = {b, graph.weights[i]};
-    graph.links[next[b]++] = {a, graph.weights[i]};
+    graph.links[--graph.first[a]] = {b, graph.weights[i]};
+    graph.links[--graph.first[b]] = {a, graph.weights[i]};
   }
 }
 

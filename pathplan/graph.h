@@ -32,12 +32,14 @@ struct Graph {
   }
 };
 
-/// Nodes are taken from all over a large graph: their links had better be on their way from memory.
-inline void prefetch_links(const Graph& graph, std::uint32_t node) {
+/// Nodes are taken from all over a large graph: their links had better be on their way from memory. Those of
+/// `soon` are asked for, and where those of `later` are.
+inline void prefetch_links(const Graph& graph, std::uint32_t soon, std::uint32_t later) {
   constexpr std::size_t kLinksALine = 64 / sizeof(Link);
-  const Link* const links = graph.links.data() + graph.first[node];
+  const Link* const links = graph.links.data() + graph.first[soon];
   __builtin_prefetch(links);
   __builtin_prefetch(links + kLinksALine);
+  __builtin_prefetch(graph.first.data() + later);
 }
 
 /// Sets `first` and `links` from the edges and their weights. O(edges).

@@ -54,10 +54,11 @@ ShortestPaths GuidedSearch::search(Queue queue, std::span<const std::uint32_t> s
   const GuidedCost cost = cost_;  // here, or it would be read again for each edge
   std::vector<typename Queue::Entry> offers(most_links(graph_));
   for (const std::uint32_t source : sources) queue.push(0.0, source);
-  while (!queue.is_empty() && !stop.stop_requested()) {
-    const auto [cost_here, node] = queue.pop();
-    prefetch_links(graph_, queue.soon());
-    if (cost_here > costs[node]) continue;  // a better way was found since
+  while (!stop.stop_requested()) {
+    const auto next = queue.pop(costs);
+    if (!next) break;
+    const auto [cost_here, node] = *next;
+    prefetch_links(graph_, queue.soon(kSoon), queue.soon(2 * kSoon));
     if (parents[node] != kNoParent) set_guide(node, parents[node]);
     const Vec3& vector = guides_[node].vector;
     const Vec3 here = graph_.nodes[node];

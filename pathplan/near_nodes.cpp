@@ -2,16 +2,40 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-
-#include "common/base/lanes.h"
 
 namespace ramify::pathplan {
 namespace {
 
 // Near nothing, itself included.
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+
+constexpr double kLastPlace = std::numeric_limits<float>::epsilon();
+
+/// Tells which of four nodes are near a position.
+class Sieve {
+ public:
+  Sieve(const Vec3f& position, float reach)
+      : x_(all_lanes(position.x)),
+        y_(all_lanes(position.y)),
+        z_(all_lanes(position.z)),
+        square_(all_lanes(reach * reach)) {}
+
+  LaneMask is_near(const Lanes& x, const Lanes& y, const Lanes& z) const {
+    const Lanes dx = x - x_;
+    const Lanes dy = y - y_;
+    const Lanes dz = z - z_;
+    return dx * dx + dy * dy + dz * dz <= square_;
+  }
+
+ private:
+  Lanes x_, y_, z_;
+  Lanes square_;
+};
+
+LaneNumbers numbers_from(std::size_t first) {
+  return static_cast<std::uint32_t>(first) + LaneNumbers{0, 1, 2, 3};
+}
 
 }  // namespace
 
@@ -22,39 +46,34 @@ RoundedNodes::RoundedNodes(std::span<const Vec3> nodes, const PointGrid& grid) :
   center_ = box.center();
   size_ = box.size().x + box.size().y + box.size().z;
 
-  for (std::vector<float>* axis : {&x_, &y_, &z_}) axis->assign(nodes.size() + kLanes, kNowhere);
-  for (std::size_t place = 0; place < nodes.size(); ++place) {
-    const Vec3f rounded(nodes[grid.order()[place]] - center_);
-    x_[place] = rounded.x;
-    y_[place] = rounded.y;
-    z_[place] = rounded.z;
+  points_.reserve(nodes.size() + kLanes);
+  for (const std::uint32_t node : grid.order()) {
+    const Vec3f rounded(nodes[node] - center_);
+    points_.push_back(Lanes{rounded.x, rounded.y, rounded.z, 0.0f});
   }
+  points_.insert(points_.end(), kLanes, all_lanes(kNowhere));
+}
+
+float RoundedNodes::way_error() const {
+  // Two coordinates of at most half the size are off by half a last place each, and so is their difference.
+  return static_cast<float>(size_ * kLastPlace);
+}
+
+float RoundedNodes::square_error(double reach) const {
+  const double error = size_ * kLastPlace;
+  return static_cast<float>((2.0 * reach + error) * error + 2.0 * reach * reach * kLastPlace);
 }
 
 float RoundedNodes::reach_with_rounding(double reach) const {
   // Each coordinate is off by at most half a last place of the size; sums and squares round a few times more.
-  return static_cast<float>(reach + 4.0 * (size_ + reach) * std::numeric_limits<float>::epsilon());
+  return static_cast<float>(reach + 4.0 * (size_ + reach) * kLastPlace);
 }
 
 void NearNodes::gather_ahead(std::size_t cell) {
-  begin();
+  count_ = 0;
   nodes_.grid_.for_each_run_ahead(cell, [&](std::size_t first, std::size_t size) { add_run(first, size); });
-  end();
-}
-
-std::span<const std::uint32_t> NearNodes::ahead_of(std::size_t i, double reach) {
-  return near(i + 1, {x_[i], y_[i], z_[i]}, reach);
-}
-
-std::span<const std::uint32_t> NearNodes::among(const PointGrid::Cells& cells, const Vec3& position,
-                                                double reach) {
-  begin();
-  const std::uint32_t* const order = nodes_.grid_.order().data();
-  nodes_.grid_.for_each_run(cells, [&](std::span<const std::uint32_t> run) {
-    add_run(static_cast<std::size_t>(run.data() - order), run.size());
-  });
-  end();
-  return near(0, Vec3f(position - nodes_.center_), reach);
+  // Quads may begin anywhere, so that the last one may go on behind the last node.
+  if (count_ > 0) std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(count_), kLanes, kNowhere);
 }
 
 /// Takes whole quads: what is beyond the run is nodes farther on.
@@ -65,35 +84,40 @@ void NearNodes::add_run(std::size_t first, std::size_t size) {
     for (std::vector<std::uint32_t>* places : {&places_, &near_}) places->resize(2 * (end + kLanes));
   }
   for (; count_ < end; count_ += kLanes, first += kLanes) {
-    std::memcpy(&x_[count_], &nodes_.x_[first], sizeof(Lanes));
-    std::memcpy(&y_[count_], &nodes_.y_[first], sizeof(Lanes));
-    std::memcpy(&z_[count_], &nodes_.z_[first], sizeof(Lanes));
-    for (std::size_t k = 0; k < kLanes; ++k) places_[count_ + k] = static_cast<std::uint32_t>(first + k);
+    const auto [x, y, z, zero] = nodes_.quad(first);
+    store(x, &x_[count_]);
+    store(y, &y_[count_]);
+    store(z, &z_[count_]);
+    store(numbers_from(first), &places_[count_]);
   }
 }
 
-/// Quads may begin anywhere, so that the last one may go on behind the last node.
-void NearNodes::end() {
-  if (count_ > 0) std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(count_), kLanes, kNowhere);
-}
-
-std::span<const std::uint32_t> NearNodes::near(std::size_t from, const Vec3f& position, double reach) {
-  const Lanes x = all_lanes(position.x);
-  const Lanes y = all_lanes(position.y);
-  const Lanes z = all_lanes(position.z);
-  const float limit = nodes_.reach_with_rounding(reach);
-  const Lanes square = all_lanes(limit * limit);
+std::span<const std::uint32_t> NearNodes::ahead_of(std::size_t i, double reach) {
+  const Sieve sieve({x_[i], y_[i], z_[i]}, nodes_.reach_with_rounding(reach));
   const std::uint32_t* const places = places_.data();
-  std::uint32_t* const found = near_.data();
+  std::uint32_t* const near = near_.data();
   std::size_t count = 0;
-  for (std::size_t i = from; i < count_; i += kLanes) {
-    const Lanes dx = load_lanes(&x_[i]) - x;
-    const Lanes dy = load_lanes(&y_[i]) - y;
-    const Lanes dz = load_lanes(&z_[i]) - z;
-    const LaneMask is_near = dx * dx + dy * dy + dz * dz <= square;
-    count += pack(load_lanes(places + i), is_near, found + count);
+  for (std::size_t k = i + 1; k < count_; k += kLanes) {
+    const LaneMask is_near = sieve.is_near(load_lanes(&x_[k]), load_lanes(&y_[k]), load_lanes(&z_[k]));
+    count += pack(load_lanes(places + k), is_near, near + count);
   }
-  return {found, count};
+  return {near, count};
+}
+
+std::span<const std::uint32_t> NearNodes::among(const PointGrid::Cells& cells, const Vec3& position,
+                                                double reach) {
+  const Sieve sieve(Vec3f(position - nodes_.center_), nodes_.reach_with_rounding(reach));
+  const std::uint32_t* const order = nodes_.grid_.order().data();
+  std::size_t count = 0;
+  nodes_.grid_.for_each_run(cells, [&](std::span<const std::uint32_t> run) {
+    const auto first = static_cast<std::size_t>(run.data() - order);
+    if (near_.size() < count + run.size() + 2 * kLanes) near_.resize(2 * (count + run.size() + 2 * kLanes));
+    for (std::size_t k = first; k < first + run.size(); k += kLanes) {
+      const auto [x, y, z, zero] = nodes_.quad(k);
+      count += pack(numbers_from(k), sieve.is_near(x, y, z), &near_[count]);
+    }
+  });
+  return {near_.data(), count};
 }
 
 }  // namespace ramify::pathplan

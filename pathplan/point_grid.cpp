@@ -1,5 +1,7 @@
 #include "pathplan/point_grid.h"
 
+#include <numeric>
+
 namespace ramify::pathplan {
 namespace {
 
@@ -25,19 +27,18 @@ PointGrid::PointGrid(std::span<const Vec3> points, double edge) {
   inverse_edge_ = 1.0 / edge;
   count_ = Coord(count);
 
-  // A counting sort keeps the points of a cell in their order.
+  // A counting sort, from the last point to the first: the cells' ends come down to their beginnings, and the
+  // points of a cell keep their order.
   std::vector<std::uint32_t> cell_of_point(points.size());
   first_.assign(index_of(count_ - 1) + 2, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     cell_of_point[i] = static_cast<std::uint32_t>(index_of(cell_of(points[i])));
-    ++first_[cell_of_point[i] + 1];
+    ++first_[cell_of_point[i]];
   }
-  for (std::size_t cell = 1; cell < first_.size(); ++cell) first_[cell] += first_[cell - 1];
-
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
   ids_.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    ids_[next[cell_of_point[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = points.size(); i-- > 0;) {
+    ids_[--first_[cell_of_point[i]]] = static_cast<std::uint32_t>(i);
   }
 }
 

@@ -75,6 +75,16 @@ class PointGrid {
     return static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.y + 1) + 1;
   }
 
+  /// The most places in order() from a cell's first one to the last one of its neighbours.
+  std::size_t places_ahead() const {
+    std::size_t most = 0;
+    for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+      const std::size_t end = std::min(cell + cells_ahead() + 1, cell_count());
+      most = std::max(most, std::size_t{first_[end] - first_[cell]});
+    }
+    return most;
+  }
+
   /// All points' numbers in the order of the cells.
   std::span<const std::uint32_t> order() const { return ids_; }
 

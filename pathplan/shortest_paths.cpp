@@ -40,10 +40,11 @@ void search(const Graph& graph, BucketQueue<order> queue, std::span<const std::u
             const std::stop_token& stop, ShortestPaths& paths) {
   std::vector<typename BucketQueue<order>::Entry> offers(most_links(graph));
   for (const std::uint32_t source : sources) queue.push(0.0, source);
-  while (!queue.is_empty() && !stop.stop_requested()) {
-    const auto [cost_here, node] = queue.pop();
-    prefetch_links(graph, queue.soon());
-    if (cost_here > paths.cost[node]) continue;  // a better way was found since
+  while (!stop.stop_requested()) {
+    const auto next = queue.pop(paths.cost);
+    if (!next) break;
+    const auto [cost_here, node] = *next;
+    prefetch_links(graph, queue.soon(kSoon), queue.soon(2 * kSoon));
     // Which offers are taken cannot be foreseen: they are picked first, without a branch.
     std::size_t count = 0;
     for (const Link& link : graph.links_of(node)) {

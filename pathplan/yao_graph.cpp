@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
+#include <memory>
+#include <utility>
 
 #include "common/base/parallel.h"
 #include "pathplan/near_nodes.h"
@@ -15,29 +18,30 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-// Cells or nodes a task: enough that starting one does not show.
-constexpr std::size_t kGrain = 256;
+// Layers of cells a task: enough that the one that is gone through twice does not show.
+constexpr std::size_t kGrain = 16;
 
 // If there is but one sector, nearly all nodes have another within this distance, in spacings.
-constexpr double kFirstReach = 1.3;
+constexpr double kFirstReach = 1.2;
 
 // Rounding must not put nodes two cells apart that are within the first reach of each other.
 constexpr double kCellSlack = 1.0 + 1e-9;
 
-/// The nearest node of a sector so far: the upper half of the square of its distance, as whole numbers
-/// compare like the numbers that have the same bits, and its place.
+/// The nearest node of a sector so far: the square of its distance in single precision, whose bits compare
+/// like the number that they stand for, then its place.
 using Nearest = std::uint64_t;
-constexpr Nearest kNothing = ~Nearest{0};
+constexpr Nearest kNothing = ~Nearest{0};  // not a number, near to none
+
+Nearest nearest_at(float square, std::uint32_t place) {
+  return Nearest{std::bit_cast<std::uint32_t>(square)} << 32 | place;
+}
 
 std::uint32_t place_of(Nearest nearest) {
   return static_cast<std::uint32_t>(nearest);
 }
 
-Nearest nearest_at(double square, std::uint32_t place) {
-  // Rounded, so that what is equal but for rounding seldom differs, and less 1, so that 0 becomes the
-  // greatest.
-  constexpr std::uint64_t kHalf = std::uint64_t{1} << 31;
-  return ((std::bit_cast<std::uint64_t>(square) - kHalf) & ~std::uint64_t{kNone}) | place;
+float square_of(Nearest nearest) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(nearest >> 32));
 }
 
 /// Orders squares of distances as they are; equal ones, to a part in 10^13, alike.
@@ -57,15 +61,28 @@ class Search {
         rules_(rules),
         first_reach_(std::min(first_reach(spacing), rules.max_length())),
         grid_(nodes, first_reach_ * kCellSlack),
-        rounded_(nodes, grid_) {}
+        rounded_(nodes, grid_),
+        way_error_(rounded_.way_error()),
+        square_error_(rounded_.square_error(first_reach_)),
+        doubt_(3.0f * square_error_) {}
 
-  std::vector<Targets> run(const std::stop_token& stop) {
-    compare_pairs(stop);
-    std::vector<Targets> targets(nodes_.size());
-    parallel_for(nodes_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  /// By node.
+  std::unique_ptr<const Targets[]> run(const std::stop_token& stop) const {
+    auto targets = std::make_unique_for_overwrite<Targets[]>(nodes_.size());
+    const std::size_t window = std::bit_ceil(grid_.places_ahead() + kLanes);
+    parallel_for(grid_.cell_count(), kGrain * grid_.cells_ahead(), [&](std::size_t begin, std::size_t end) {
       NearNodes near(rounded_);
-      for (auto place = static_cast<std::uint32_t>(begin); place < end; ++place) {
-        targets[grid_.order()[place]] = stop.stop_requested() ? no_targets() : targets_of(place, near);
+      NearestAhead nearest(window);
+      for (std::size_t cell = begin - std::min(begin, grid_.cells_ahead()); cell < end; ++cell) {
+        const bool is_stopped = stop.stop_requested();
+        if (!is_stopped) compare_from(cell, near, nearest);
+        // The nodes of this cell have met all others now.
+        const std::uint32_t first = first_place(cell);
+        for (std::uint32_t place = first; place < first + grid_.ids_in(cell).size(); ++place) {
+          const Sides sides = nearest.take(place);
+          if (cell < begin) continue;
+          targets[grid_.order()[place]] = is_stopped ? no_targets() : targets_of(place, sides, near);
+        }
       }
     });
     return targets;
@@ -73,6 +90,24 @@ class Search {
 
  private:
   using Sides = std::array<Nearest, Sectors::kCount>;
+
+  /// What is nearest to the nodes that pairs are being met of: those from a cell on to its last neighbour. So
+  /// few stay in the processor's cache.
+  class NearestAhead {
+   public:
+    /// Places, a power of 2.
+    explicit NearestAhead(std::size_t size) : sides_(size, nothing()) {}
+    Sides& operator[](std::uint32_t place) { return sides_[place & (sides_.size() - 1)]; }
+    Sides take(std::uint32_t place) { return std::exchange((*this)[place], nothing()); }
+
+   private:
+    static Sides nothing() {
+      Sides nothing;
+      nothing.fill(kNothing);
+      return nothing;
+    }
+    std::vector<Sides> sides_;
+  };
 
   static double first_reach(double spacing) {
     // All sectors are as large, and share the volume.
@@ -85,42 +120,33 @@ class Search {
     return targets;
   }
 
-  /// Finds what is nearest among all that is within the first reach, whatever the rules allow.
-  void compare_pairs(const std::stop_token& stop) {
-    Sides nothing;
-    nothing.fill(kNothing);
-    nearest_.assign(nodes_.size(), nothing);
-    // Pairs reach into the next slab at most, so that every other one can be worked on at once.
-    const std::size_t slab = std::max(kGrain, grid_.cells_ahead());
-    const std::size_t slabs = (grid_.cell_count() + slab - 1) / slab;
-    for (const std::size_t first : {0, 1}) {
-      parallel_for((slabs + 1 - first) / 2, 1, [&](std::size_t begin, std::size_t end) {
-        NearNodes near(rounded_);
-        for (std::size_t i = begin; i < end && !stop.stop_requested(); ++i) {
-          const std::size_t cell_begin = (2 * i + first) * slab;
-          const std::size_t cell_end = std::min(cell_begin + slab, grid_.cell_count());
-          for (std::size_t cell = cell_begin; cell < cell_end; ++cell) compare_from(cell, near);
-        }
-      });
-    }
+  std::uint32_t first_place(std::size_t cell) const {
+    return static_cast<std::uint32_t>(grid_.ids_in(cell).data() - grid_.order().data());
   }
 
-  void compare_from(std::size_t cell, NearNodes& near) {
+  /// Offers the nodes of a cell and those ahead of them to each other that are within the first reach,
+  /// whatever the rules allow.
+  void compare_from(std::size_t cell, NearNodes& near, NearestAhead& nearest) const {
     const std::size_t count = grid_.ids_in(cell).size();
     if (count == 0) return;
-    const auto first = static_cast<std::uint32_t>(grid_.ids_in(cell).data() - grid_.order().data());
     near.gather_ahead(cell);
-    const double limit = first_reach_ * first_reach_;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t place = first + i;
-      const Vec3 position = position_of(place);
-      Sides& sides = nearest_[place];
+      const std::uint32_t place = first_place(cell) + i;
+      Sides& sides = nearest[place];
       for (const std::uint32_t other : near.ahead_of(i, first_reach_)) {
-        const Vec3 d = position_of(other) - position;
-        const double square = glm::dot(d, d);
-        if (square > limit) continue;
-        offer(sides[Sectors::of(d)], square, place, other);
-        offer(nearest_[other][Sectors::of(-d)], square, other, place);
+        Sides& sides_of_other = nearest[other];
+        const Lanes way = rounded_.way(place, other);
+        const float square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+        Sector sector = Sectors::of_rounded(way, way_error_);
+        Sector opposite = Sectors::opposite(sector);
+        if (sector == kInDoubt) [[unlikely]] {
+          const Vec3 d = position_of(other) - position_of(place);
+          if (glm::dot(d, d) == 0.0) continue;
+          sector = Sectors::of(d);
+          opposite = Sectors::of(-d);
+        }
+        offer(sides[sector], square, place, other);
+        offer(sides_of_other[opposite], square, other, place);
       }
     }
   }
@@ -128,34 +154,42 @@ class Search {
   const Vec3& position_of(std::uint32_t place) const { return nodes_[grid_.order()[place]]; }
 
   /// `other`, at a distance from the node at `place`, for its nearest.
-  void offer(Nearest& nearest, double square, std::uint32_t place, std::uint32_t other) {
+  void offer(Nearest& nearest, float square, std::uint32_t place, std::uint32_t other) const {
     const Nearest offered = nearest_at(square, other);
-    if ((offered ^ nearest) >> 32 == 0) [[unlikely]] {
-      if (is_before(square, other, place, place_of(nearest))) nearest = offered;
+    if (std::abs(square - square_of(nearest)) <= doubt_) [[unlikely]] {
+      if (is_before(other, place, place_of(nearest))) nearest = offered;
       return;
     }
     // Which of two is nearer cannot be foreseen, so this is no branch.
     nearest = std::min(nearest, offered);
   }
 
-  /// Whether `other` comes before the nearest one so far, if there is one, when looked at closely.
-  bool is_before(double square, std::uint32_t other, std::uint32_t place, std::uint32_t nearest) const {
-    if (nearest == kNone) return false;
-    const Vec3 d = position_of(nearest) - position_of(place);
-    const std::uint64_t rank = rank_of(square);
-    const std::uint64_t nearest_rank = rank_of(glm::dot(d, d));
+  /// Whether `other` comes before the nearest one so far, when looked at closely.
+  bool is_before(std::uint32_t other, std::uint32_t place, std::uint32_t nearest) const {
+    const std::uint64_t rank = rank_of(square_between(place, other));
+    const std::uint64_t nearest_rank = rank_of(square_between(place, nearest));
     return rank < nearest_rank || (rank == nearest_rank && grid_.order()[other] < grid_.order()[nearest]);
   }
 
-  /// What the pairs have shown; where that is nothing, or not allowed, a sector is looked at on its own.
-  Targets targets_of(std::uint32_t place, NearNodes& near) const {
+  double square_between(std::uint32_t place, std::uint32_t other) const {
+    const Vec3 d = position_of(other) - position_of(place);
+    return glm::dot(d, d);
+  }
+
+  /// What the pairs have shown; where that is nothing sure, or not allowed, a sector is looked at on its own.
+  Targets targets_of(std::uint32_t place, const Sides& sides, NearNodes& near) const {
     const std::uint32_t node = grid_.order()[place];
     const bool is_all = first_reach_ == rules_.max_length();
+    // Of what is farther, some is not within the first reach.
+    const auto sure = static_cast<float>(first_reach_ * first_reach_) - 2.0f * square_error_;
     Targets targets;
     for (Sector sector = 0; sector < Sectors::kCount; ++sector) {
-      const std::uint32_t nearest = place_of(nearest_[place][sector]);
+      const std::uint32_t nearest = place_of(sides[sector]);
       targets[sector] = nearest == kNone ? kNone : grid_.order()[nearest];
-      if (nearest == kNone ? is_all : rules_.allows(node, targets[sector])) continue;
+      if (nearest == kNone ? is_all
+                           : square_of(sides[sector]) <= sure && rules_.allows(node, targets[sector])) {
+        continue;
+      }
       targets[sector] = nearest_in(sector, place, near);
     }
     return targets;
@@ -180,10 +214,12 @@ class Search {
     }
     std::uint32_t nearest = kNone;
     for (const std::uint32_t other : near.among(grid_.touching(box), position, reach)) {
+      const Sector rounded = Sectors::of_rounded(rounded_.way(place, other), way_error_);
+      if (rounded != sector && rounded != kInDoubt) continue;
       const Vec3 d = position_of(other) - position;
       const double square = glm::dot(d, d);
       if (square > reach * reach || square == 0.0 || Sectors::of(d) != sector) continue;
-      if (nearest != kNone && !is_before(square, other, place, nearest)) continue;
+      if (nearest != kNone && !is_before(other, place, nearest)) continue;
       if (rules_.allows(grid_.order()[place], grid_.order()[other])) nearest = other;
     }
     return nearest == kNone ? kNone : grid_.order()[nearest];
@@ -194,7 +230,9 @@ class Search {
   double first_reach_;
   PointGrid grid_;
   RoundedNodes rounded_;
-  std::vector<Sides> nearest_;  // by place
+  float way_error_;     // of a rounded coordinate
+  float square_error_;  // of the square of a rounded distance
+  float doubt_;         // two such squares must differ by more, to tell which distance is shorter
 };
 
 template <class Sectors>

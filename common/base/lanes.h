@@ -30,6 +30,14 @@ inline LaneNumbers load_lanes(const std::uint32_t* values) {
   return lanes;
 }
 
+inline void store(const Lanes& lanes, float* values) {
+  std::memcpy(values, &lanes, sizeof lanes);
+}
+
+inline void store(const LaneNumbers& lanes, std::uint32_t* values) {
+  std::memcpy(values, &lanes, sizeof lanes);
+}
+
 inline Lanes all_lanes(float value) {
   return Lanes{value, value, value, value};
 }
@@ -37,6 +45,29 @@ inline Lanes all_lanes(float value) {
 inline Lanes magnitude(const Lanes& values) {
   constexpr std::int32_t kAllButSign = 0x7fffffff;
   return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(values) & kAllButSign);
+}
+
+/// One bit a lane, the first lane's lowest: whether it is set, or negative.
+inline unsigned sign_bits(const LaneMask& values) {
+#ifdef __SSSE3__
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(values)));
+#else
+  unsigned bits = 0;
+  for (unsigned k = 0; k < kLanes; ++k) bits |= static_cast<std::uint32_t>(values[k]) >> 31 << k;
+  return bits;
+#endif
+}
+
+/// Of four vectors, their first elements, their second ones and so on.
+inline std::array<Lanes, 4> transposed(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const Lanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const Lanes cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+          __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
+          __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+          __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)};
 }
 
 /// Writes those of four numbers whose lanes are set, one after the other, and returns how many; behind them
@@ -55,7 +86,7 @@ inline std::size_t pack(const LaneNumbers& numbers, const LaneMask& is_set, std:
     }
     return shuffles;
   }();
-  const auto set = static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(is_set)));
+  const unsigned set = sign_bits(is_set);
   const __m128i shuffle = _mm_loadu_si128(reinterpret_cast<const __m128i*>(kShuffles[set].data()));
   _mm_storeu_si128(reinterpret_cast<__m128i*>(packed),
                    _mm_shuffle_epi8(reinterpret_cast<__m128i>(numbers), shuffle));

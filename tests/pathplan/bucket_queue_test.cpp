@@ -1,5 +1,6 @@
 #include "pathplan/bucket_queue.h"
 
+#include <limits>
 #include <map>
 #include <queue>
 
@@ -34,8 +35,9 @@ void search_with(Queue& queue, const Range& range, std::uint64_t seed, const Put
   };
   for (int i = 0; i < 3; ++i) add(0.0);
   int left = 4000;
-  while (!queue.is_empty()) {
-    const auto entry = queue.pop();
+  const std::vector<double> costs(1000, std::numeric_limits<double>::infinity());  // nothing is passed over
+  while (const auto next = queue.pop(costs)) {
+    const auto entry = *next;
     taken(entry);
     for (std::uint64_t i = rng.below(4); i > 0 && left > 0; --i, --left) {
       const double step = rng.coin() ? std::min(range.typical, range.heaviest) : range.heaviest;
@@ -94,4 +96,24 @@ TEST_CASE("bucket queue: rough, it takes out all that was put in, and nothing mo
       for (const auto& [entry, left] : inside) CHECK(left == 0);
     }
   }
+}
+
+TEMPLATE_TEST_CASE_SIG("bucket queue: a node is not taken for more than it costs by then", "",
+                       ((QueueOrder order), order), QueueOrder::rough, QueueOrder::exact) {
+  BucketQueue<order> queue(1.0, 10.0);
+  std::vector<double> costs = {0.0, 4.5, 4.2, 7.0};
+  queue.push(0.0, 0);
+  queue.push(6.5, 1);  // later than what it costs now
+  queue.push(4.5, 1);
+  queue.push(4.2, 2);
+  queue.push(7.0, 3);
+  CHECK(queue.pop(costs)->node == 0);
+  const auto next = queue.pop(costs);
+  CHECK(next->cost == costs[next->node]);
+  const std::uint32_t other = 3 - next->node;
+  costs[other] = 4.1;  // made cheaper while its bucket is open
+  queue.push(4.1, other);
+  CHECK(queue.pop(costs)->cost == 4.1);
+  CHECK(queue.pop(costs)->node == 3);
+  CHECK_FALSE(queue.pop(costs).has_value());
 }

@@ -56,6 +56,32 @@ TEST_CASE("near nodes: each pair within reach is met from one of its ends, few o
   }
 }
 
+TEST_CASE("near nodes: ways from one to another are off by no more than is told") {
+  for (const Place& place : places()) {
+    for (const double shift : {0.0, 1e5}) {
+      std::vector<Vec3> nodes = nodes_at(place, shift);
+      for (std::size_t i = 0; i < nodes.size(); i += 2) nodes[i].x += 1e3 * shift;  // far from the others
+      constexpr double kReach = 0.5;
+      const PointGrid grid(nodes, kReach);
+      const RoundedNodes rounded(nodes, grid);
+      INFO(place.name << ", shift " << shift);
+      for (std::uint32_t a = 0; a < nodes.size(); ++a) {
+        for (std::uint32_t b = 0; b < nodes.size(); ++b) {
+          const Vec3 way = nodes[grid.order()[b]] - nodes[grid.order()[a]];
+          const Lanes d = rounded.way(a, b);
+          for (int axis = 0; axis < 3; ++axis) {
+            REQUIRE(std::abs(double{d[static_cast<std::size_t>(axis)]} - way[axis]) <= rounded.way_error());
+          }
+          const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+          if (glm::length(way) > kReach) continue;
+          REQUIRE(std::abs(square - glm::dot(way, way)) <= rounded.square_error(kReach));
+        }
+      }
+      if (shift == 0.0) CHECK(rounded.square_error(kReach) < 1e-4 * kReach * kReach);
+    }
+  }
+}
+
 TEST_CASE("near nodes: all nodes of a box of cells that are within reach of a position are found") {
   for (const Place& place : places()) {
     for (const double shift : {0.0, 1e5}) {

@@ -114,6 +114,29 @@ TEST_CASE("Yao graph: equal distances go to the lower number, in whatever order 
   }
 }
 
+TEST_CASE("Yao graph: it is right where nodes are too far from each other for single precision") {
+  const Volume room{.shape = Shape::sphere, .radius = 1e9};
+  const OpenDomain open(room);
+  std::vector<Vec3> nodes =
+      scatter_nodes({.shape = Shape::sphere, .radius = 2.0}, Vec3(0.0), {.nodes = 150}).position;
+  const std::size_t count = nodes.size();
+  for (std::size_t i = 0; i < count; ++i) nodes.push_back(nodes[i] + Vec3(3e7, 1e6, -2e7));
+  const EdgeRules rules(open.domain, nodes, 2.0);
+  for (const int sectors : {6, 8, 14}) {
+    CHECK(as_set(yao_edges(nodes, rules, sectors, 0.5)) == edges_by_hand(nodes, {open.solid, 2.0}, sectors));
+  }
+}
+
+TEST_CASE("Yao graph: it is right where nodes fill many layers of cells, which are shared out") {
+  const Volume pole{.shape = Shape::cylinder, .radius = 0.3, .height = 30.0, .direction = {0.0, 0.0, 1.0}};
+  const Nodes nodes = scatter_nodes(pole, Vec3(0.0), {.nodes = 1500});
+  const OpenDomain open(pole);
+  const double max_length = 3.0 * nodes.spacing;
+  const EdgeRules rules(open.domain, nodes.position, max_length);
+  CHECK(as_set(yao_edges(nodes.position, rules, 8, nodes.spacing)) ==
+        edges_by_hand(nodes.position, {open.solid, max_length}, 8));
+}
+
 TEST_CASE("Yao graph: an edge may be exactly as long as is allowed") {
   const Volume room{.shape = Shape::sphere, .radius = 100.0};
   const std::vector<Vec3> nodes = {{0, 0, 0}, {3, 0, 0}, {0, 3.1, 0}};
