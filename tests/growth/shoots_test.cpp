@@ -4,6 +4,7 @@
 
 #include "growth/shoot_building.h"
 #include "tests/catch.h"
+#include "tests/growth/plants.h"
 
 using namespace ramify;
 using namespace ramify::growth;
@@ -243,11 +244,11 @@ TEST_CASE("buds: one that has rested for bud_lifespan steps dies, one that grew 
 }
 
 TEST_CASE("shoots: the planner finds every bud with resource, in order, however few it is asked for") {
-  Plant plant = test::seedling();
+  Plant plant = ramify::test::seedling();
   std::vector<double> vigour = {0.0};
   std::vector<std::uint32_t> growing;
   for (std::uint32_t bud = 1; bud < 10000; ++bud) {
-    add_bud(plant, {.node = 0, .is_terminal = true});
+    ramify::test::add_bud(plant, {.node = 0, .is_terminal = true});
     const bool grows = bud % 7 == 0 || bud > 9900;
     vigour.push_back(grows ? 1.0 - 1e-12 : 1.0 - 1e-6);
     if (grows) growing.push_back(bud);
