@@ -3,10 +3,10 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
+#include "common/base/lanes.h"
 #include "common/mesh/wood.h"
 
 namespace ramify {
@@ -15,16 +15,10 @@ namespace {
 constexpr std::uint32_t kSides = 3;
 constexpr std::uint32_t kRing = kSides + 1;  // vertices: the first stands there once more, with another u
 
-/// A number of each of four tubes. Like all that follows in the same terms as Vec3f and Frame of smooth.cpp.
-using Lanes = float __attribute__((vector_size(16)));
-using LaneBits = std::int32_t __attribute__((vector_size(16)));
-
-constexpr Lanes all(float value) {
-  return Lanes{value, value, value, value};
-}
+// A lane is a tube; all that follows is in the same terms as Vec3f and as Frame in smooth.cpp.
 
 Lanes root(Lanes x) {
-  for (int i = 0; i < 4; ++i) x[i] = std::sqrt(x[i]);
+  for (std::size_t i = 0; i < kLanes; ++i) x[i] = std::sqrt(x[i]);
   return x;
 }
 
@@ -55,20 +49,8 @@ Lanes3 cross(const Lanes3& a, const Lanes3& b) {
 Lanes length(const Lanes3& a) {
   return root(dot(a, a));
 }
-Lanes3 select(LaneBits condition, const Lanes3& a, const Lanes3& b) {
+Lanes3 select(LaneMask condition, const Lanes3& a, const Lanes3& b) {
   return {condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z};
-}
-
-/// rows[i][j] = columns[j][i].
-std::array<Lanes, 4> transposed(Lanes a, Lanes b, Lanes c, Lanes d) {
-  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-  const Lanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-  const Lanes cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  return {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
-          __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
-          __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
-          __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)};
 }
 
 /// The points of four axes at the same place of their rows.
@@ -77,12 +59,11 @@ struct Points {
   Lanes radius;
 };
 
-Points load(const std::array<const AxisPoint*, 4>& points, std::size_t i) {
+Points load(const std::array<const AxisPoint*, kLanes>& points, std::size_t i) {
   static_assert(offsetof(AxisPoint, radius) == sizeof(Vec3f));
-  Lanes rows[4];
-  for (std::size_t lane = 0; lane < 4; ++lane) std::memcpy(&rows[lane], points[lane] + i, sizeof(Lanes));
-  const std::array<Lanes, 4> columns = transposed(rows[0], rows[1], rows[2], rows[3]);
-  return {{columns[0], columns[1], columns[2]}, columns[3]};
+  const auto of = [&](std::size_t lane) { return load_lanes(&points[lane][i].position.x); };
+  const auto [x, y, z, radius] = transposed(of(0), of(1), of(2), of(3));
+  return {{x, y, z}, radius};
 }
 
 /// Of four tubes: see Frame in smooth.cpp.
@@ -93,8 +74,8 @@ struct Frames {
 
   void begin(const Lanes3& new_along) {
     constexpr std::int32_t sign_bit = std::numeric_limits<std::int32_t>::min();
-    const Lanes sign = std::bit_cast<Lanes>((std::bit_cast<LaneBits>(new_along.z) & sign_bit) |
-                                            std::bit_cast<LaneBits>(all(1.0f)));
+    const Lanes sign = std::bit_cast<Lanes>((std::bit_cast<LaneMask>(new_along.z) & sign_bit) |
+                                            std::bit_cast<LaneMask>(all_lanes(1.0f)));
     const Lanes a = -1.0f / (sign + new_along.z);
     set(new_along, {new_along.x * new_along.y * a, sign + new_along.y * new_along.y * a, -new_along.y});
   }
@@ -117,8 +98,8 @@ struct Frames {
 /// Where the next vertices and triangles of four tubes go.
 class Outputs {
  public:
-  Outputs(const TubePlan& plan, const std::array<std::uint32_t, 4>& tubes, Mesh& mesh) {
-    for (std::size_t lane = 0; lane < 4; ++lane) {
+  Outputs(const TubePlan& plan, const std::array<std::uint32_t, kLanes>& tubes, Mesh& mesh) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const Tube& tube = plan.tubes[tubes[lane]];
       vertices_[lane] = static_cast<std::uint32_t>(tube.first_vertex);
       positions_[lane] = &mesh.positions[tube.first_vertex].x;
@@ -131,14 +112,15 @@ class Outputs {
 
   /// A ring's vertices but for the last, which repeats the first.
   void add_ring(const std::array<Lanes3, kSides>& positions, const std::array<Lanes3, kSides>& normals,
-                Lanes v, const std::array<std::uint32_t, 4>& nodes) {
+                Lanes v, const std::array<std::uint32_t, kLanes>& nodes) {
     add_repeated(positions, positions_);
     add_repeated(normals, normals_);
     constexpr float step = 1.0f / kSides;
-    write<2>({transposed(all(0.0f), v, all(step), v), transposed(all(2.0f * step), v, all(3.0f * step), v)},
+    write<2>({transposed(all_lanes(0.0f), v, all_lanes(step), v),
+              transposed(all_lanes(2.0f * step), v, all_lanes(3.0f * step), v)},
              {0, 4}, uvs_);
     for (float*& place : uvs_) place += 2 * kRing;
-    for (std::size_t lane = 0; lane < 4; ++lane) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
       for (std::size_t i = 0; i < kRing; ++i) internodes_[lane][i] = nodes[lane];
       internodes_[lane] += kRing;
       vertices_[lane] += kRing;
@@ -155,7 +137,7 @@ class Outputs {
       }
       return corners;
     }();
-    for (std::size_t lane = 0; lane < 4; ++lane) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t low = vertices_[lane] - 2 * kRing;
       for (std::size_t i = 0; i < kBand.size(); ++i) triangles_[lane][i] = low + kBand[i];
       triangles_[lane] += kBand.size();
@@ -164,7 +146,7 @@ class Outputs {
 
   /// A vertex for each side, all in one place.
   void add_tip(const Lanes3& apex, const std::array<Lanes3, kSides>& normals, Lanes v,
-               const std::array<std::uint32_t, 4>& nodes) {
+               const std::array<std::uint32_t, kLanes>& nodes) {
     // The last of the nine or six numbers are written with some of those before them.
     const auto& [a, b, c] = normals;
     write<3>({transposed(apex.x, apex.y, apex.z, apex.x), transposed(apex.y, apex.z, apex.x, apex.y),
@@ -172,10 +154,10 @@ class Outputs {
              {0, 4, 5}, positions_);
     write<3>({transposed(a.x, a.y, a.z, b.x), transposed(b.y, b.z, c.x, c.y), transposed(b.z, c.x, c.y, c.z)},
              {0, 4, 5}, normals_);
-    const auto middle = [](float side) { return all((side + 0.5f) / kSides); };
+    const auto middle = [](float side) { return all_lanes((side + 0.5f) / kSides); };
     write<2>({transposed(middle(0.0f), v, middle(1.0f), v), transposed(middle(1.0f), v, middle(2.0f), v)},
              {0, 2}, uvs_);
-    for (std::size_t lane = 0; lane < 4; ++lane) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t tip = vertices_[lane];
       const std::uint32_t ring = tip - kRing;
       for (std::uint32_t i = 0; i < kSides; ++i) {
@@ -188,7 +170,7 @@ class Outputs {
   }
 
  private:
-  static void add_repeated(const std::array<Lanes3, kSides>& ring, std::array<float*, 4>& places) {
+  static void add_repeated(const std::array<Lanes3, kSides>& ring, std::array<float*, kLanes>& places) {
     const auto& [a, b, c] = ring;
     write<3>({transposed(a.x, a.y, a.z, b.x), transposed(b.y, b.z, c.x, c.y), transposed(c.z, a.x, a.y, a.z)},
              {0, 4, 8}, places);
@@ -197,20 +179,19 @@ class Outputs {
 
   /// rows[i][lane] goes to offsets[i] numbers beyond the lane's place.
   template <std::size_t Count>
-  static void write(const std::array<std::array<Lanes, 4>, Count>& rows,
-                    const std::array<std::size_t, Count>& offsets, const std::array<float*, 4>& places) {
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      for (std::size_t i = 0; i < Count; ++i)
-        std::memcpy(places[lane] + offsets[i], &rows[i][lane], sizeof(Lanes));
+  static void write(const std::array<std::array<Lanes, kLanes>, Count>& rows,
+                    const std::array<std::size_t, Count>& offsets, const std::array<float*, kLanes>& places) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (std::size_t i = 0; i < Count; ++i) store(rows[i][lane], places[lane] + offsets[i]);
     }
   }
 
-  std::array<std::uint32_t, 4> vertices_;
-  std::array<float*, 4> positions_;
-  std::array<float*, 4> normals_;
-  std::array<float*, 4> uvs_;
-  std::array<std::uint32_t*, 4> internodes_;
-  std::array<std::uint32_t*, 4> triangles_;
+  std::array<std::uint32_t, kLanes> vertices_;
+  std::array<float*, kLanes> positions_;
+  std::array<float*, kLanes> normals_;
+  std::array<float*, kLanes> uvs_;
+  std::array<std::uint32_t*, kLanes> internodes_;
+  std::array<std::uint32_t*, kLanes> triangles_;
 };
 
 /// Asks for memory that is written soon. Always inline: GCC leaves out calls of functions that only prefetch.
@@ -233,7 +214,7 @@ std::array<Lanes3, kSides> around(const Lanes3& center, const Lanes3& side, cons
   std::array<Lanes3, kSides> ring;
   for (std::size_t i = 0; i < kSides; ++i) {
     const Vec2f& on_circle = circle[i * stride];
-    ring[i] = center + side * all(on_circle.x) + across * all(on_circle.y);
+    ring[i] = center + side * all_lanes(on_circle.x) + across * all_lanes(on_circle.y);
   }
   return ring;
 }
@@ -280,10 +261,10 @@ void PlainTubeWriter::write(Group& group) {
 
   Points at = load(points, 0);
   Frames frames;
-  Lanes3 along_before{all(0.0f), all(1.0f), all(0.0f)};
-  Lanes length_before = all(0.0f);
+  Lanes3 along_before{all_lanes(0.0f), all_lanes(1.0f), all_lanes(0.0f)};
+  Lanes length_before = all_lanes(0.0f);
   Lanes radius_before = at.radius;
-  Lanes v = all(0.0f);
+  Lanes v = all_lanes(0.0f);
   for (std::size_t i = 0;; ++i) {
     const bool is_last = i + 1 == count;
     const Points next = is_last ? at : load(points, i + 1);
@@ -297,7 +278,7 @@ void PlainTubeWriter::write(Group& group) {
       frames.turn_to(is_last ? along_before : between(along_before, along_after));
     }
     const Lanes both = length_before + length_after;
-    const Lanes slope = both > plan_.axes->thinnest ? (radius_before - next.radius) / both : all(0.0f);
+    const Lanes slope = both > plan_.axes->thinnest ? (radius_before - next.radius) / both : all_lanes(0.0f);
     const Lanes shorten = 1.0f / root(1.0f + slope * slope);
     out.add_ring(
         around(at.position, frames.side * at.radius, frames.across * at.radius, circle, 1),
@@ -311,7 +292,7 @@ void PlainTubeWriter::write(Group& group) {
     at = next;
   }
   const Lanes tip = kTipLength * at.radius;
-  const Lanes share = all(std::numbers::sqrt2_v<float> / 2.0f);
+  const Lanes share = all_lanes(std::numbers::sqrt2_v<float> / 2.0f);
   out.add_tip(at.position + frames.along * tip,
               around(frames.along * share, frames.side * share, frames.across * share,
                      unit_circle(2 * kSides) + 1, 2),

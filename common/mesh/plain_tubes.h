@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/lanes.h"
 #include "common/mesh/mesh.h"
 #include "common/mesh/tube_plan.h"
 
@@ -27,8 +28,6 @@ class PlainTubeWriter {
   void write_rest();
 
  private:
-  static constexpr std::size_t kLanes = 4;
-
   struct Group {
     std::uint32_t size = 0;
     std::array<std::uint32_t, kLanes> tubes;
