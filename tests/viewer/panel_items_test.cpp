@@ -1,5 +1,7 @@
 #include "viewer/panel_items.h"
 
+#include <string_view>
+
 #include "growth/parameters.h"
 #include "pathplan/parameters.h"
 #include "tests/catch.h"
@@ -9,7 +11,7 @@ using namespace ramify;
 namespace {
 
 template <class P>
-const FieldRow& row_of(const std::string& key) {
+const FieldRow& row_of(std::string_view key) {
   for (const FieldRow& row : P::fields()) {
     if (row.key == key) return row;
   }
