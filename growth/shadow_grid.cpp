@@ -7,7 +7,7 @@
 #include <iterator>
 #include <tuple>
 
-#include "common/base/memory.h"
+#include "common/base/large_pages.h"
 #include "common/base/parallel.h"
 
 namespace ramify::growth {

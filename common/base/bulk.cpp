@@ -2,14 +2,10 @@
 
 #include <cstdlib>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
+#include "common/base/large_pages.h"
 
 namespace ramify {
 namespace {
-
-constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
 // Less than this would waste the better part of its last page.
 constexpr std::size_t kBulk = 4 * kLargePage;
@@ -21,9 +17,7 @@ void* allocate_bulk(std::size_t bytes) {
   const std::size_t rounded = (bytes + kLargePage - 1) / kLargePage * kLargePage;
   void* memory = is_bulk ? std::aligned_alloc(kLargePage, rounded) : std::malloc(bytes);
   if (memory == nullptr) throw std::bad_alloc();
-#ifdef __linux__
-  if (is_bulk) madvise(memory, rounded, MADV_HUGEPAGE);  // advice: nothing depends on it
-#endif
+  if (is_bulk) prefer_large_pages(memory, rounded);
   return memory;
 }
 

@@ -1,16 +1,10 @@
 #include "common/base/memory.h"
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 #include <fstream>
 #include <string>
 
 namespace ramify {
 namespace {
-
-constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21;  // bytes
 
 /// The number after `name` in a file of lines "Name:  123 kB", in bytes; 0 if there is none.
 std::uint64_t kernel_number(const std::string& file, const std::string& name) {
@@ -33,17 +27,6 @@ ProcessMemory process_memory(int process) {
 
 std::uint64_t available_memory() {
   return kernel_number("/proc/meminfo", "MemAvailable:");
-}
-
-std::uintptr_t large_page_of(const void* address) {
-  return reinterpret_cast<std::uintptr_t>(address) / kLargePage;
-}
-
-void gather_in_large_page([[maybe_unused]] const void* address) {
-#ifdef __linux__
-  constexpr int kCollapse = 25;  // MADV_COLLAPSE, since Linux 6.1
-  madvise(reinterpret_cast<void*>(large_page_of(address) * kLargePage), kLargePage, kCollapse);
-#endif
 }
 
 bool fits_beside(std::span<const std::uint64_t> running, std::uint64_t expected, std::uint64_t available) {

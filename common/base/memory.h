@@ -23,12 +23,4 @@ std::uint64_t available_memory();
 /// now and may come to as much each, if `available` bytes are left; a tenth is kept free.
 bool fits_beside(std::span<const std::uint64_t> running, std::uint64_t expected, std::uint64_t available);
 
-/// Which large page of 2 MB an address would be in.
-std::uintptr_t large_page_of(const void* address);
-
-/// Asks the system to hold the large page around an address, most of it in use, in one piece: the processor
-/// remembers where some thousands of pages are, and small ones add up to a few megabytes. Does nothing where
-/// the system has none.
-void gather_in_large_page(const void* address);
-
 }  // namespace ramify

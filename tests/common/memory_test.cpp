@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "common/base/large_pages.h"
 #include "tests/catch.h"
 
 using namespace ramify;

@@ -1,0 +1,21 @@
+// Memory in pages of 2 MB, where the system has such: the processor remembers where some thousands of pages
+// are, and small ones add up to a few megabytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace ramify {
+
+inline constexpr std::size_t kLargePage = std::size_t{2} << 20;  // bytes
+
+/// Which large page an address would be in.
+std::uintptr_t large_page_of(const void* address);
+
+/// Asks for large pages where memory that nobody has written to yet is first touched.
+void prefer_large_pages(void* memory, std::size_t bytes);
+
+/// Asks for the large page around an address, most of it in use, to be held in one piece.
+void gather_in_large_page(const void* address);
+
+}  // namespace ramify
