@@ -56,6 +56,21 @@ glm::vec4 as_light(const Color& color) {
   return {linear_color(color) * color.a, color.a};
 }
 
+/// What is drawn now lies on what was drawn before and leaves its depth and opacity.
+void begin_overlay() {
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(-1.0f, -1.0f);
+}
+
+void end_overlay() {
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
 /// `buffer` as the vertex attribute at `location` of the vertex array that is bound; `advance` 1: one an
 /// instance.
 void set_attribute(GLuint location, const GlBuffer& buffer, GLint components, GLenum type,
@@ -177,6 +192,7 @@ void Painter::load_mesh(const Scene& scene) {
   const Mesh& mesh = *scene.mesh;
   triangle_count_ = mesh.triangles.size();
   for (const MaterialRange& range : mesh.ranges) {
+    if (mesh.material(range).is_overlay && is_plain()) continue;
     // The mesher's branches are closed; a file's need not be, and leaves have two sides.
     const bool is_closed = scene.skeleton != nullptr && !mesh.material(range).is_two_sided;
     tree_.ranges.push_back(
@@ -239,15 +255,15 @@ void Painter::load_later(const GlBuffer& buffer, const void* data, std::size_t b
 
 void Painter::load_surface(const Material& material, bool shows_color) {
   // In plain colours an image only tells where a leaf ends.
-  const bool is_plain = !options_.color_by.empty() || options_.style == RenderStyle::schematic;
   Surface surface;
-  if (!is_plain && shows_color) surface.color = material.color;
+  if (!is_plain() && shows_color) surface.color = material.color;
   surface.is_thin = material.is_two_sided;
+  surface.is_overlay = material.is_overlay;
   surface.is_cutout = material.is_cutout && !material.image.is_empty();
-  if (!material.image.is_empty() && (!is_plain || surface.is_cutout)) {
+  if (!material.image.is_empty() && (!is_plain() || surface.is_cutout)) {
     surface.image = texture_of(material.image, true);
   }
-  if (!material.normal_map.is_empty() && !is_plain) {
+  if (!material.normal_map.is_empty() && !is_plain()) {
     surface.normal_map = texture_of(material.normal_map, false);
   }
   surfaces_.push_back(std::move(surface));
@@ -359,6 +375,10 @@ void Painter::cast(const Batch& batch, const TreePart& part) const {
   programs_->caster.set("world_to_map", moved(sun_.world_to_map, batch.origin));
   programs_->caster.set("ground", static_cast<float>(base_.y - batch.origin.y));
   draw_triangles(batch, programs_->caster, part);
+}
+
+bool Painter::is_plain() const {
+  return !options_.color_by.empty() || options_.style == RenderStyle::schematic;
 }
 
 bool Painter::has_ground(const Camera& camera) const {
@@ -476,14 +496,18 @@ void Painter::draw_triangles(const Batch& batch, const GlProgram& program, const
     const std::size_t end = std::min(range.first + range.count, 3 * std::min(part.end, kMostTriangles));
     if (first >= end) continue;
     const Surface& surface = surfaces_[range.surface];
+    // What an overlay lies on casts its shadow.
+    if (surface.is_overlay && &program == &programs_->caster) continue;
     set_surface(surface, program);
     if (range.is_closed) glEnable(GL_CULL_FACE);
     // A leaf's edge covers as many of a pixel's samples as its alpha says.
     for (const GLenum capability : {GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE}) {
       if (surface.is_cutout) glEnable(capability);
     }
+    if (surface.is_overlay) begin_overlay();
     const void* offset = reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
     glDrawElements(GL_TRIANGLES, static_cast<int>(end - first), GL_UNSIGNED_INT, offset);
+    if (surface.is_overlay) end_overlay();
     for (const GLenum capability : {GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE})
       glDisable(capability);
     glDisable(GL_CULL_FACE);
@@ -491,11 +515,11 @@ void Painter::draw_triangles(const Batch& batch, const GlProgram& program, const
 }
 
 void Painter::set_surface(const Surface& surface, const GlProgram& program) const {
-  const bool is_plain = !options_.color_by.empty() || options_.style == RenderStyle::schematic;
   program.set("surface_color", surface.color);
   program.set("is_cutout", surface.is_cutout ? 1 : 0);
+  program.set("is_overlay", surface.is_overlay ? 1 : 0);
   program.set("is_thin", surface.is_thin ? 1 : 0);
-  program.set("has_image", surface.image && !is_plain ? 1 : 0);
+  program.set("has_image", surface.image && !is_plain() ? 1 : 0);
   program.set("has_normal_map", surface.normal_map ? 1 : 0);
   program.set("image", kImageUnit);
   program.set("normal_map", kNormalMapUnit);

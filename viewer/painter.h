@@ -104,6 +104,7 @@ class Painter {
   struct Surface {
     Vec3f color{1.0f};  // linear, times that of the vertices
     bool is_cutout = false;
+    bool is_overlay = false;
     bool is_thin = false;  // light comes through
     std::optional<GlTexture> image;
     std::optional<GlTexture> normal_map;
@@ -140,6 +141,7 @@ class Painter {
   void cast(const Batch& batch, const TreePart& part = {}) const;
   void set_light(const GlProgram& program) const;
   bool has_ground(const Camera& camera) const;
+  bool is_plain() const;  // colours are to be read: no images, no overlays
 
   std::shared_ptr<const PaintPrograms> programs_;
   GlVertexArray no_vertices_;

@@ -180,11 +180,14 @@ out vec2 place;
 out vec3 world;
 out vec3 world_normal;
 out vec3 albedo;
+out float opacity;
+uniform bool is_overlay;
 void main() {
   place = uv;
   world = position;
   world_normal = normal;
   albedo = linear_of(color.rgb);
+  opacity = is_overlay ? color.a : 1.0;
   gl_Position = world_to_clip * vec4(position, 1.0);
 }
 )";
@@ -195,6 +198,7 @@ std::string lit_fragment() {
 in vec3 world;
 in vec3 world_normal;
 in vec3 albedo;
+in float opacity;
 uniform vec3 surface_color;
 uniform bool is_thin;
 uniform bool has_normal_map;
@@ -253,7 +257,7 @@ void main() {
   float up = is_thin ? 0.35 * shaped.y + 0.2 : shaped.y;
   vec3 ambient = mix(vec3(0.44, 0.40, 0.35), kSkyShare * 1.4, 0.5 + 0.5 * up);
   vec3 sun = 1.45 * kSunShare * sunlight(normal, shaped);
-  color = vec4(paint * (sun + ambient * sky), present);
+  color = vec4(paint * (sun + ambient * sky), present * opacity);
 }
 )";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace ramify {
 namespace {
@@ -37,7 +38,7 @@ std::vector<SkyPatch> sky_patches() {
 /// Adds the triangles' areas to the cells they lie in, square metres.
 std::vector<double> wood_areas(const Mesh& mesh, const SkyLight& cells, double cell) {
   std::vector<double> areas(cells.visibility.size(), 0.0);
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (const auto& [a, b, c] : std::span(mesh.triangles).first(solid_part(mesh).triangle_count)) {
     const Vec3 corners[] = {Vec3(mesh.positions[a]), Vec3(mesh.positions[b]), Vec3(mesh.positions[c])};
     const Vec3 u = corners[1] - corners[0];
     const Vec3 v = corners[2] - corners[0];

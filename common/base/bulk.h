@@ -42,4 +42,12 @@ struct BulkAllocator {
 template <class T>
 using BulkVector = std::vector<T, BulkAllocator<T>>;
 
+/// Makes it larger; as many elements as could have been added before can be added after that, too, without
+/// moving all of them. Memory that is not touched costs nothing.
+template <class T>
+void resize_with_spare(BulkVector<T>& vector, std::size_t count) {
+  vector.reserve(count + (vector.capacity() - vector.size()));
+  vector.resize(count);
+}
+
 }  // namespace ramify

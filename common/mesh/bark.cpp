@@ -113,27 +113,6 @@ class BarkColors {
 // Young trees have a finer bark, so that it does not coarsen from one axis to the next.
 constexpr double kLeastAroundTrunk = 3.0;
 
-/// How often the texture stands around the wood at each node: around a trunk as often as fits, around a
-/// lateral so that it is as wide as on the wood that bears it, as far as whole numbers go.
-std::vector<float> repeats_around(const Skeleton& skeleton, double tile_width) {
-  const double thickest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
-  const double trunk_tile = std::min(tile_width, std::numbers::pi * thickest / kLeastAroundTrunk);
-  std::vector<float> repeats(skeleton.node_count(), 1.0f);
-  for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
-    const std::uint32_t parent = skeleton.parent[node];
-    if (!skeleton.is_root(parent) && skeleton.axis[parent] == skeleton.axis[node]) {
-      repeats[node] = repeats[parent];
-      continue;
-    }
-    const double bearer_tile = std::numbers::pi * skeleton.diameter[parent] / repeats[parent];
-    const double tile = skeleton.is_root(parent) ? trunk_tile : bearer_tile;
-    const double girth = std::numbers::pi * skeleton.diameter[node];
-    repeats[node] = static_cast<float>(tile > 0.0 ? std::max(1.0, std::round(girth / tile)) : 1.0);
-    if (skeleton.is_root(parent)) repeats[parent] = std::max(repeats[parent], repeats[node]);
-  }
-  return repeats;
-}
-
 void set_texture(Material& material, const BarkOptions& options, double& mean_shade) {
   material.color = Vec3f(1.0f);
   if (!options.image.empty()) {
@@ -179,6 +158,25 @@ const Table& BarkOptions::fields() {
   return table;
 }
 
+std::vector<float> bark_repeats(const Skeleton& skeleton, double tile_width) {
+  const double thickest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
+  const double trunk_tile = std::min(tile_width, std::numbers::pi * thickest / kLeastAroundTrunk);
+  std::vector<float> repeats(skeleton.node_count(), 1.0f);
+  for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
+    const std::uint32_t parent = skeleton.parent[node];
+    if (!skeleton.is_root(parent) && skeleton.axis[parent] == skeleton.axis[node]) {
+      repeats[node] = repeats[parent];
+      continue;
+    }
+    const double bearer_tile = std::numbers::pi * skeleton.diameter[parent] / repeats[parent];
+    const double tile = skeleton.is_root(parent) ? trunk_tile : bearer_tile;
+    const double girth = std::numbers::pi * skeleton.diameter[node];
+    repeats[node] = static_cast<float>(tile > 0.0 ? std::max(1.0, std::round(girth / tile)) : 1.0);
+    if (skeleton.is_root(parent)) repeats[parent] = std::max(repeats[parent], repeats[node]);
+  }
+  return repeats;
+}
+
 void check_bark(const BarkOptions& options) {
   check_image(options.image, "image");
   check_image(options.normal, "normal");
@@ -195,9 +193,12 @@ void dress_in_bark(Mesh& mesh, const Skeleton& skeleton, const BarkOptions& opti
   set_texture(*bark, options, mean_shade);
 
   const BarkColors colors(skeleton, options.kind, mean_shade);
-  const std::vector<float> repeats = repeats_around(skeleton, options.tile_width);
+  const std::vector<float> repeats = bark_repeats(skeleton, options.tile_width);
   const bool has_colors = options.image.empty();
-  if (has_colors) mesh.colors.resize(mesh.vertex_count());
+  if (has_colors) {
+    mesh.colors.reserve(mesh.positions.capacity());
+    mesh.colors.resize(mesh.vertex_count());
+  }
   parallel_for(mesh.vertex_count(), 1 << 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t vertex = begin; vertex < end; ++vertex) {
       const std::uint32_t node = mesh.internodes[vertex];

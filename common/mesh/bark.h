@@ -32,6 +32,10 @@ struct BarkOptions {
 /// the mesh was made from. Throws InputError for an image that cannot be used. O(n).
 void dress_in_bark(Mesh& mesh, const Skeleton& skeleton, const BarkOptions& options);
 
+/// How often the texture stands around the wood at each node: around a trunk as often as fits, around a
+/// lateral so that it is as wide as on the wood that bears it, as far as whole numbers go. O(n).
+std::vector<float> bark_repeats(const Skeleton& skeleton, double tile_width);
+
 /// Throws ConfigError with the key "image" or "normal" if that file cannot be used.
 void check_bark(const BarkOptions& options);
 

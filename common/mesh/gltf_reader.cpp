@@ -7,6 +7,7 @@
 
 #include "common/base/color.h"
 #include "common/base/errors.h"
+#include "common/mesh/fork_bark.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/normals.h"
 
@@ -121,7 +122,8 @@ class MeshAssembler {
       material.roughness = static_cast<float>(source.pbrMetallicRoughness.roughnessFactor);
       material.image = image(source.pbrMetallicRoughness.baseColorTexture.index);
       material.normal_map = image(source.normalTexture.index);
-      material.is_cutout = source.alphaMode != "OPAQUE";
+      material.is_overlay = source.alphaMode == "BLEND" && source.name == kForkBark;
+      material.is_cutout = source.alphaMode != "OPAQUE" && !material.is_overlay;
       material.is_two_sided = source.doubleSided;
       mesh_.materials.push_back(std::move(material));
     }
@@ -159,10 +161,23 @@ class MeshAssembler {
       return range.material + 1 == mesh_.materials.size();
     });
     if (!has_default) mesh_.materials.pop_back();
+    keep_last_overlays();
     return std::move(mesh_);
   }
 
  private:
+  /// An overlay that another program has put before other surfaces is none any more.
+  void keep_last_overlays() {
+    bool is_last = true;
+    for (auto range = mesh_.ranges.rbegin(); range != mesh_.ranges.rend(); ++range) {
+      Material& material = mesh_.materials[range->material];
+      is_last = is_last && material.is_overlay;
+      if (is_last || !material.is_overlay) continue;
+      material.is_overlay = false;
+      material.is_cutout = true;
+    }
+  }
+
   Image image(int texture) const {
     if (texture < 0 || static_cast<std::size_t>(texture) >= model_.textures.size()) return {};
     const int source = model_.textures[static_cast<std::size_t>(texture)].source;

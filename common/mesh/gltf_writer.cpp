@@ -197,7 +197,8 @@ void add_mesh(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh) {
     set_bounds(model.accessors.back(), std::span(mesh.positions).subspan(window.first, window.count));
     primitive.attributes["NORMAL"] = add_attribute(model, binary, mesh.normals, window, TINYGLTF_TYPE_VEC3);
     primitive.attributes["TEXCOORD_0"] = add_uvs(model, binary, mesh, window);
-    if (!mesh.tangents.empty() && !mesh.material(range).normal_map.is_empty()) {
+    const bool has_tangents = window.first + window.count <= mesh.tangents.size();
+    if (has_tangents && !mesh.material(range).normal_map.is_empty()) {
       primitive.attributes["TANGENT"] =
           add_attribute(model, binary, mesh.tangents, window, TINYGLTF_TYPE_VEC4);
     }
@@ -224,27 +225,55 @@ int add_texture(tinygltf::Model& model, BinaryPart& binary, const std::string& n
   return static_cast<int>(model.textures.size()) - 1;
 }
 
-/// The images of all materials as PNG, two each: image and normal map, empty where there is none.
-std::vector<std::string> compressed_images(const std::vector<Material>& materials) {
-  std::vector<std::string> pngs(2 * materials.size());
-  parallel_for(pngs.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Image& image = i % 2 == 0 ? materials[i / 2].image : materials[i / 2].normal_map;
-      if (!image.is_empty()) pngs[i] = png_bytes(image);
-    }
-  });
-  return pngs;
+/// The images of all materials, two each: image and normal map, empty where there is none.
+std::vector<const Image*> images_of(const std::vector<Material>& materials) {
+  std::vector<const Image*> images;
+  for (const Material& material : materials) {
+    images.push_back(&material.image);
+    images.push_back(&material.normal_map);
+  }
+  return images;
 }
 
-void add_materials(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh) {
-  std::vector<std::string> pngs = compressed_images(mesh.materials);
-  const bool has_images = std::any_of(pngs.begin(), pngs.end(), [](const auto& png) { return !png.empty(); });
-  if (has_images) {
+/// Where in the list each image stands for the first time: overlays look like what they lie on.
+std::vector<std::size_t> first_places(const std::vector<const Image*>& images) {
+  std::vector<std::size_t> places;
+  for (const Image* image : images) {
+    const auto is_alike = [&](const Image* other) { return other->rgba == image->rgba; };
+    const auto first = std::find_if(images.begin(), images.end(), is_alike);
+    places.push_back(static_cast<std::size_t>(first - images.begin()));
+  }
+  return places;
+}
+
+/// The texture of each image; -1: none.
+std::vector<int> add_textures(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh) {
+  const std::vector<const Image*> images = images_of(mesh.materials);
+  const std::vector<std::size_t> places = first_places(images);
+  std::vector<std::string> pngs(images.size());
+  parallel_for(images.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (places[i] == i && !images[i]->is_empty()) pngs[i] = png_bytes(*images[i]);
+    }
+  });
+  if (std::any_of(pngs.begin(), pngs.end(), [](const std::string& png) { return !png.empty(); })) {
     tinygltf::Sampler sampler;
     sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
     sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
     model.samplers.push_back(sampler);
   }
+  std::vector<int> textures(images.size(), -1);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    textures[i] = textures[places[i]];
+    if (pngs[i].empty()) continue;
+    const std::string& name = mesh.materials[i / 2].name;
+    textures[i] = add_texture(model, binary, i % 2 == 0 ? name : name + " normals", std::move(pngs[i]));
+  }
+  return textures;
+}
+
+void add_materials(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh) {
+  const std::vector<int> textures = add_textures(model, binary, mesh);
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const Material& material = mesh.materials[i];
     tinygltf::Material result;
@@ -255,14 +284,9 @@ void add_materials(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh)
     result.pbrMetallicRoughness.roughnessFactor = material.roughness;
     result.doubleSided = material.is_two_sided;
     if (material.is_cutout) result.alphaMode = "MASK";
-    if (!pngs[2 * i].empty()) {
-      result.pbrMetallicRoughness.baseColorTexture.index =
-          add_texture(model, binary, material.name, std::move(pngs[2 * i]));
-    }
-    if (!pngs[2 * i + 1].empty()) {
-      result.normalTexture.index =
-          add_texture(model, binary, material.name + " normals", std::move(pngs[2 * i + 1]));
-    }
+    if (material.is_overlay) result.alphaMode = "BLEND";
+    result.pbrMetallicRoughness.baseColorTexture.index = textures[2 * i];
+    result.normalTexture.index = textures[2 * i + 1];
     model.materials.push_back(result);
   }
 }

@@ -312,12 +312,12 @@ void append_leaves(Mesh& mesh, const LeafModel& model, const std::vector<Leaf>& 
                                one.vertex_count()));
   }
   if (mesh.colors.empty()) mesh.colors.resize(first_vertex, {255, 255, 255, 255});
-  mesh.positions.resize(vertices);
-  mesh.normals.resize(vertices);
-  mesh.uvs.resize(vertices);
-  mesh.colors.resize(vertices);
-  mesh.internodes.resize(vertices);
-  mesh.triangles.resize(first_triangle + leaves.size() * one.triangles.size());
+  resize_with_spare(mesh.positions, vertices);
+  resize_with_spare(mesh.normals, vertices);
+  resize_with_spare(mesh.uvs, vertices);
+  resize_with_spare(mesh.colors, vertices);
+  resize_with_spare(mesh.internodes, vertices);
+  resize_with_spare(mesh.triangles, first_triangle + leaves.size() * one.triangles.size());
 
   // A range of the model becomes one of the tree, leaf after leaf.
   std::size_t range_begin = first_triangle;

@@ -20,6 +20,7 @@ struct Material {
   Image image;                // empty: the colour alone
   Image normal_map;           // empty: none; tangent space, x along +u, y along +v, z outwards
   bool is_cutout = false;     // where the image's alpha is below one half there is nothing
+  bool is_overlay = false;    // lies on other surfaces, seen as far as the vertex colours' alpha says
   bool is_two_sided = false;  // both sides are seen; else the surface is closed and only its outside is
 };
 
@@ -42,13 +43,22 @@ struct Mesh {
   BulkVector<std::array<std::uint8_t, 4>> colors;  // sRGB and alpha, one a vertex; empty: none
   BulkVector<std::uint32_t> internodes;            // the skeleton node that each vertex belongs to
   BulkVector<Triangle> triangles;
-  std::vector<MaterialRange> ranges;  // in order, covering all triangles
+  std::vector<MaterialRange> ranges;  // in order, covering all triangles; overlays, whose vertices are their own, come last
   std::vector<Material> materials;
   std::vector<std::string> warnings;  // of the mesher, one line each
 
   std::size_t vertex_count() const { return positions.size(); }
   const Material& material(const MaterialRange& range) const { return materials[range.material]; }
 };
+
+/// What of a mesh is no overlay: its first vertices and triangles.
+struct SolidPart {
+  std::size_t vertex_count = 0;
+  std::size_t triangle_count = 0;
+};
+
+/// For formats that know no transparency, and wherever surfaces count once. O(triangles of overlays).
+SolidPart solid_part(const Mesh& mesh);
 
 /// Without anything in it, but with all its memory, for a mesh of about the same size.
 inline Mesh emptied(Mesh mesh) {

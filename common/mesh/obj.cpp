@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <ostream>
+#include <span>
 
 #include "common/base/color.h"
 #include "common/base/decimal.h"
@@ -38,7 +39,7 @@ void write_lines(std::size_t count, std::size_t row_bytes, std::ostream& out, Pu
 }
 
 template <int Places, class Vector>
-void write_vectors(const BulkVector<Vector>& values, std::string_view key, std::ostream& out) {
+void write_vectors(std::span<Vector> values, std::string_view key, std::ostream& out) {
   const std::size_t row_bytes = key.size() + 1 + Vector::length() * (decimal::kMaxLength + 1);
   write_lines(values.size(), row_bytes, out, [&](std::size_t i, char* to) {
     to = std::copy(key.begin(), key.end(), to);
@@ -122,10 +123,12 @@ void write_obj(const Mesh& mesh, const Provenance& provenance, const std::string
                std::ostream& out) {
   write_comments(provenance, out);
   out << fmt::format("mtllib {}\no tree\n", material_library);
-  write_vectors<6>(mesh.positions, "v", out);
-  write_vectors<6>(mesh.uvs, "vt", out);
-  write_vectors<4>(mesh.normals, "vn", out);
+  const std::size_t count = solid_part(mesh).vertex_count;
+  write_vectors<6>(std::span(mesh.positions).first(count), "v", out);
+  write_vectors<6>(std::span(mesh.uvs).first(count), "vt", out);
+  write_vectors<4>(std::span(mesh.normals).first(count), "vn", out);
   for (const MaterialRange& range : mesh.ranges) {
+    if (mesh.material(range).is_overlay) continue;
     out << fmt::format("usemtl {}\n", mesh.material(range).name);
     write_faces(mesh, range, out);
   }
@@ -135,6 +138,7 @@ std::vector<ImageFile> image_files(const Mesh& mesh, const std::string& stem) {
   std::vector<ImageFile> files;
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const Material& material = mesh.materials[i];
+    if (material.is_overlay) continue;
     if (!material.image.is_empty()) {
       files.push_back({image_name(stem, material), tinted(material.image, mean_color(mesh, i))});
     }
@@ -148,6 +152,7 @@ std::vector<ImageFile> image_files(const Mesh& mesh, const std::string& stem) {
 void write_mtl(const Mesh& mesh, const std::string& stem, std::ostream& out) {
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const Material& material = mesh.materials[i];
+    if (material.is_overlay) continue;
     const Vec3f color = material.image.is_empty() ? mean_color(mesh, i) : Vec3f(1.0f);
     out << fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nKs 0 0 0\nillum 1\n", material.name, color.r,
                        color.g, color.b);

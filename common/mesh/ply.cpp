@@ -32,26 +32,27 @@ void write_comments(const Provenance& provenance, std::ostream& out) {
   }
 }
 
-void write_header(const Mesh& mesh, const Provenance& provenance, std::ostream& out) {
+void write_header(const Mesh& mesh, const SolidPart& solid, const Provenance& provenance, std::ostream& out) {
   out << "ply\nformat binary_little_endian 1.0\n";
   write_comments(provenance, out);
-  out << fmt::format("element vertex {}\n", mesh.vertex_count());
+  out << fmt::format("element vertex {}\n", solid.vertex_count);
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"})
     out << "property float " << name << '\n';
   if (!mesh.colors.empty()) {
     for (const char* name : {"red", "green", "blue", "alpha"}) out << "property uchar " << name << '\n';
   }
   out << fmt::format("property uint internode\nelement face {}\nproperty list uchar uint vertex_indices\n",
-                     mesh.triangles.size());
+                     solid.triangle_count);
   out << "end_header\n";
 }
 
 }  // namespace
 
 void write_ply(const Mesh& mesh, const Provenance& provenance, std::ostream& out) {
-  write_header(mesh, provenance, out);
+  const SolidPart solid = solid_part(mesh);
+  write_header(mesh, solid, provenance, out);
   const std::size_t vertex_bytes = mesh.colors.empty() ? 36 : 40;
-  write_rows(mesh.vertex_count(), vertex_bytes, out,
+  write_rows(solid.vertex_count, vertex_bytes, out,
              [&](std::size_t begin, std::size_t end, std::string& text) {
                text.resize((end - begin) * vertex_bytes);
                char* to = text.data();
@@ -64,7 +65,7 @@ void write_ply(const Mesh& mesh, const Provenance& provenance, std::ostream& out
                }
              });
   constexpr std::size_t kFaceBytes = 13;
-  write_rows(mesh.triangles.size(), kFaceBytes, out,
+  write_rows(solid.triangle_count, kFaceBytes, out,
              [&](std::size_t begin, std::size_t end, std::string& text) {
                text.resize((end - begin) * kFaceBytes);
                char* to = text.data();

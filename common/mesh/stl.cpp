@@ -37,7 +37,7 @@ void put_triangle(const Mesh& mesh, std::size_t index, char* bytes) {
 }  // namespace
 
 void write_stl(const Mesh& mesh, const Provenance& provenance, std::ostream& out) {
-  const std::size_t count = mesh.triangles.size();
+  const std::size_t count = solid_part(mesh).triangle_count;
   if (count > std::numeric_limits<std::uint32_t>::max()) {
     throw RunError(fmt::format("STL: {} triangles are more than the format can count", count));
   }

@@ -1,5 +1,6 @@
 #include "common/mesh/tree_mesh.h"
 
+#include "common/mesh/fork_bark.h"
 #include "common/mesh/tangents.h"
 
 namespace ramify {
@@ -12,22 +13,32 @@ double total_area(const LeafModel& model, const std::vector<Leaf>& leaves) {
   return area;
 }
 
-}  // namespace
-
-TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed, Mesh memory) {
-  TreeMesh tree;
-  tree.mesh = build_mesh(skeleton, looks.mesher, std::move(memory));
-  if (looks.mesher.color_by.empty()) {  // else its colours are to be read, and bark would change them
-    dress_in_bark(tree.mesh, skeleton, looks.bark);
-    compute_tangents(tree.mesh);
-  }
-  if (!looks.leaves.is_on()) return tree;
-
+void add_leaves(TreeMesh& tree, const Skeleton& skeleton, const Looks& looks, std::uint64_t seed) {
   const LeafModel model = leaf_model(looks.leaves);
   const std::vector<Leaf> leaves = place_leaves(skeleton, looks.leaves, seed, looks.mesher.lod);
   append_leaves(tree.mesh, model, leaves);
   tree.leaf_count = leaves.size();
   tree.leaf_area = total_area(model, leaves);
+}
+
+/// Cones have no collars, and coarse meshes no triangles to spare.
+bool has_fork_bark(const MesherOptions& options) {
+  return options.method != MeshMethod::cones && options.lod == 0 && options.max_triangles == 0;
+}
+
+}  // namespace
+
+TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed, Mesh memory) {
+  TreeMesh tree;
+  tree.mesh = build_mesh(skeleton, looks.mesher, std::move(memory));
+  const bool has_bark = looks.mesher.color_by.empty();  // else colours are to be read, and bark would change them
+  if (has_bark) {
+    dress_in_bark(tree.mesh, skeleton, looks.bark);
+    compute_tangents(tree.mesh);
+  }
+  if (looks.leaves.is_on()) add_leaves(tree, skeleton, looks, seed);
+  if (has_bark && has_fork_bark(looks.mesher))
+    append_fork_bark(tree.mesh, skeleton, bark_repeats(skeleton, looks.bark.tile_width));
   return tree;
 }
 

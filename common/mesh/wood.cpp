@@ -14,6 +14,8 @@ constexpr Vec3f kBarkColor(0.17f, 0.12f, 0.085f);
 // Of the greatest coordinate: some twenty steps of a float there.
 constexpr double kThinnestShare = 2e-6;
 
+constexpr std::size_t kSpareShare = 16;
+
 Material bark_material() {
   Material bark;
   bark.name = "bark";
@@ -25,6 +27,14 @@ Material bark_material() {
 
 Mesh wood_of_size(std::size_t vertices, std::size_t triangles, Mesh memory) {
   Mesh mesh = emptied(std::move(memory));
+  // Room for the bark over forks: arrays of a large tree need not be moved, and memory that is not touched
+  // costs nothing.
+  const std::size_t most_vertices = vertices + vertices / kSpareShare;
+  mesh.positions.reserve(most_vertices);
+  mesh.normals.reserve(most_vertices);
+  mesh.uvs.reserve(most_vertices);
+  mesh.internodes.reserve(most_vertices);
+  mesh.triangles.reserve(triangles + triangles / kSpareShare);
   mesh.positions.resize(vertices);
   mesh.normals.resize(vertices);
   mesh.uvs.resize(vertices);
