@@ -82,7 +82,12 @@ void print_json(const Results& results, bool has_mesh, const Paths& outputs, con
   object["internodes"] = results.run.skeleton.internode_count();
   object["axes"] = results.run.skeleton.axis_count();
   object["triangles"] = nullptr;
-  if (has_mesh) object["triangles"] = solid_part(results.tree.mesh).triangle_count;
+  object["overlay_triangles"] = nullptr;  // of .glb and .gltf, beside those
+  if (has_mesh) {
+    const std::size_t solid = solid_part(results.tree.mesh).triangle_count;
+    object["triangles"] = solid;
+    object["overlay_triangles"] = results.tree.mesh.triangles.size() - solid;
+  }
   object["leaves"] = nullptr;
   if (results.tree.leaf_count > 0) {
     object["leaves"] = {{"count", results.tree.leaf_count}, {"area", results.tree.leaf_area}};
@@ -117,7 +122,13 @@ void print_summary(const Results& results, bool has_mesh, const Paths& outputs, 
     for (const auto& [name, value] : group.values) fmt::print(" {} {:.6g}", name, value);
     fmt::print("\n");
   }
-  if (has_mesh) fmt::print("{} triangles\n", grouped(solid_part(results.tree.mesh).triangle_count));
+  if (has_mesh) {
+    const std::size_t solid = solid_part(results.tree.mesh).triangle_count;
+    const std::size_t overlay = results.tree.mesh.triangles.size() - solid;
+    const bool has_overlay = overlay > 0;
+    fmt::print("{} triangles{}\n", grouped(solid),
+               has_overlay ? fmt::format(", and {} of bark over forks in .glb", grouped(overlay)) : "");
+  }
   if (results.tree.leaf_count > 0) {
     fmt::print("{} leaves, {:.3g} m2 in all\n", grouped(results.tree.leaf_count), results.tree.leaf_area);
   }

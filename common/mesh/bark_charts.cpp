@@ -17,10 +17,6 @@ constexpr std::size_t kGrain = 1 << 14;  // triangles
 // thick wood that bends.
 constexpr float kLeastStretch = 2.0f;
 
-// But no point of the axis lies so far beside its stretch, in radii: the texture would whirl where the
-// stretch came out of the wood.
-constexpr float kFarthestBeside = 0.4f;
-
 // A point is so many stretches from the one of its internode at the most.
 constexpr int kStretchesAway = 8;
 
@@ -53,10 +49,6 @@ struct Stretches {
     const std::size_t first = list.size();
     std::uint32_t base = axis.first;
     for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point) {
-      if (leaves_line(axes, base, point)) {
-        add(axes.points[base], axes.points[point - 1], list.size() > first);
-        base = point - 1;
-      }
       const AxisPoint& from = axes.points[base];
       const AxisPoint& to = axes.points[point];
       of_internode[to.node] = static_cast<std::uint32_t>(list.size());
@@ -66,19 +58,6 @@ struct Stretches {
       add(from, to, list.size() > first);
       base = point;
     }
-  }
-
-  /// Whether a point between these two lies far beside the line that joins them.
-  static bool leaves_line(const Axes& axes, std::uint32_t base, std::uint32_t tip) {
-    const Vec3f from = axes.points[base].position;
-    const Vec3f step = axes.points[tip].position - from;
-    const float length2 = std::max(glm::dot(step, step), 1e-12f);
-    for (std::uint32_t point = base + 1; point < tip; ++point) {
-      const Vec3f apart = axes.points[point].position - from;
-      const float share = std::clamp(glm::dot(apart, step) / length2, 0.0f, 1.0f);
-      if (glm::distance(apart, step * share) > kFarthestBeside * axes.points[point].radius) return true;
-    }
-    return false;
   }
 
   /// Frames are carried along each axis, so that neither u nor v jumps from one stretch to the next.

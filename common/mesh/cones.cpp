@@ -15,6 +15,12 @@ namespace {
 // sides.
 const double kStraight = std::cos(radians(8.0));
 
+// Cosine below which an axis turns back: its bark starts anew there.
+constexpr double kTurnsBack = -0.5;
+
+// Of the length of a cone: its bark is squeezed or stretched no more than that by the bends at its ends.
+constexpr double kLeastBark = 0.3;
+
 // Circles of latitude of the sphere at a tip, of which half is seen: with fewer it would look pointed.
 constexpr std::uint32_t kTipLatitudes = 5;
 
@@ -24,8 +30,10 @@ constexpr std::uint32_t kTwigTipLatitudes = 3;
 
 /// How the parts of one node lie: its sphere, and the cone from its parent.
 struct NodePart {
-  Vec3 along;  // unit, of the internode
-  Vec3 side;   // unit, perpendicular to it: where u is 0
+  Vec3 along;      // unit, of the internode
+  Vec3 side;       // unit, perpendicular to it: where u is 0
+  Vec3 bend;       // unit, of the axis at the node: halfway from this internode's direction to the next one's
+  Vec3 base_bend;  // the same where the cone begins; a lateral's begins straight
   double v = 0.0;
   double base_radius = 0.0;  // of the cone
   bool has_cone = false;
@@ -70,7 +78,7 @@ struct ConesPlan {
   std::size_t triangle_count = 0;
 };
 
-/// Frames are carried along each axis, so that bark does not jump from one cone to the next. With a
+/// Frames are carried along each axis, so that bark does not turn from one cone to the next. With a
 /// tolerance, metres, axes that reach no farther are left out, like spheres of its size.
 ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, double tolerance = 0.0) {
   const double thinnest = thinnest_radius(skeleton);
@@ -91,7 +99,7 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     part.sphere_sides = part.sides;
     part.has_sphere = is_kept[node] && end_radius > tolerance;
     part.is_tip = tolerance <= 0.0;
-    part.along = kUp;
+    part.along = part.bend = kUp;
     part.root = static_cast<std::uint32_t>(node);
     if (skeleton.is_root(node)) {
       part.side = any_perpendicular(kUp);
@@ -101,11 +109,14 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     const double length = skeleton.length(node);
     part.base_radius = goes_on ? radius(skeleton, parent, thinnest) : end_radius;
     part.along = normalized_or(skeleton.along(node), parts[parent].along, thinnest);
+    part.bend = part.base_bend = part.along;
     part.side = transported(parts[parent].side, parts[parent].along, part.along);
     NodePart& below = parts[parent];
     part.root = below.root;
     if (skeleton.is_root(parent) && part.along.y < 0.0) plan.has_roots[parent] = true;
     if (goes_on) below.is_tip = false;
+    if (goes_on && glm::dot(below.along, part.along) > kTurnsBack)
+      below.bend = part.base_bend = glm::normalize(below.along + part.along);
     if (goes_on && tolerance <= 0.0 && glm::dot(below.along, part.along) < kStraight)
       below.sphere_sides = 2 * below.sides;
     part.v = length / (std::numbers::pi * (part.base_radius + end_radius));
@@ -148,7 +159,7 @@ class PartBuilder {
  private:
   Vec3 outwards(std::uint32_t side) const {
     const double angle = 2.0 * std::numbers::pi * side / sides_;
-    return part_.side * std::cos(angle) + glm::cross(part_.along, part_.side) * std::sin(angle);
+    return side_ * std::cos(angle) + glm::cross(axis_, side_) * std::sin(angle);
   }
 
   void add_vertex(const Vec3& center, double radius, const Vec3& normal, double u, double v) {
@@ -160,12 +171,14 @@ class PartBuilder {
     mesh_.internodes[vertex_++] = node_;
   }
 
-  /// A circle on a sphere, at the height sine * radius above its center.
-  void add_circle(const Vec3& center, double radius, double sine, double v) {
+  /// A circle on a sphere, at the height sine * radius above its center. place(i, normal): u and v.
+  template <class Place>
+  void add_circle(const Vec3& center, double radius, double sine, Place place) {
     const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
     for (std::uint32_t i = 0; i <= sides_; ++i) {
-      add_vertex(center, radius, outwards(i % sides_) * cosine + part_.along * sine,
-                 static_cast<double>(i) / sides_, v);
+      const Vec3 normal = outwards(i % sides_) * cosine + axis_ * sine;
+      const glm::dvec2 uv = place(i, normal);
+      add_vertex(center, radius, normal, uv.x, uv.y);
     }
   }
 
@@ -184,26 +197,49 @@ class PartBuilder {
   /// Between the circles in which a cone touches both spheres.
   void add_cone() {
     sides_ = part_.sides;
+    axis_ = part_.along;
+    side_ = part_.side;
     const std::uint32_t parent = skeleton_.parent[node_];
     const double length = skeleton_.length(node_);
     const double sine = (part_.base_radius - end_radius_) / length;
-    const double girth = std::numbers::pi * (part_.base_radius + end_radius_);
     const std::size_t low = vertex_;
-    add_circle(skeleton_.position[parent], part_.base_radius, sine, part_.v - length / girth);
+    add_circle(skeleton_.position[parent], part_.base_radius, sine, [&](std::uint32_t i, const Vec3&) {
+      return glm::dvec2(static_cast<double>(i) / sides_,
+                        v_on_cone(outwards(i % sides_), sine * part_.base_radius));
+    });
     const std::size_t high = vertex_;
-    add_circle(skeleton_.position[node_], end_radius_, sine, part_.v);
+    add_circle(skeleton_.position[node_], end_radius_, sine, [&](std::uint32_t i, const Vec3&) {
+      return glm::dvec2(static_cast<double>(i) / sides_,
+                        v_on_cone(outwards(i % sides_), length + sine * end_radius_));
+    });
     join_circles(low, high);
   }
 
-  /// Its poles lie along the internode, so that its corners meet those of the cone.
+  /// On one side of the cone, `x` metres from its base. Where the axis bends, cones meet in a plane: there
+  /// both have the same bark.
+  double v_on_cone(const Vec3& side, double x) const {
+    const double length = skeleton_.length(node_);
+    const double girth = std::numbers::pi * (part_.base_radius + end_radius_);
+    const auto shift = [&](const Vec3& bend) { return glm::dot(side, bend) / glm::dot(part_.along, bend); };
+    const double from = -part_.base_radius * shift(part_.base_bend);
+    const double seen = std::max(length - end_radius_ * shift(part_.bend) - from, kLeastBark * length);
+    return part_.v + ((x - from) / seen - 1.0) * length / girth;
+  }
+
+  /// Its poles lie along the internode, so that its corners meet those of the cone; at a bend within both
+  /// cones.
   void add_sphere() {
     sides_ = part_.sphere_sides;
+    axis_ = part_.bend;
+    side_ = transported(part_.side, part_.along, part_.bend);
     const Vec3& center = skeleton_.position[node_];
     const std::uint32_t bands = latitudes(part_) + 1;
     const std::size_t lowest = vertex_;
     for (std::uint32_t band = 1; band < bands; ++band) {
       const double latitude = std::numbers::pi * (static_cast<double>(band) / bands - 0.5);
-      add_circle(center, end_radius_, std::sin(latitude), v_at(latitude));
+      add_circle(center, end_radius_, std::sin(latitude), [&](std::uint32_t i, const Vec3& normal) {
+        return on_sphere(static_cast<double>(i) / sides_, normal);
+      });
       if (band > 1) join_circles(vertex_ - 2 * (sides_ + 1), vertex_ - (sides_ + 1));
     }
     const std::size_t highest = vertex_ - (sides_ + 1);
@@ -215,19 +251,32 @@ class PartBuilder {
     }
   }
 
-  /// An arc as long as the girth is one unit of v.
-  double v_at(double latitude) const { return part_.v + latitude / (2.0 * std::numbers::pi); }
+  /// An arc as long as the girth is one unit of v. Below the plane of the bend u is that of this cone, above
+  /// it, which is its mirror image, that of the next; `u` is near to it, but about the poles, which are
+  /// hidden.
+  glm::dvec2 on_sphere(double u, const Vec3& normal) const {
+    const double height = glm::dot(normal, part_.bend);
+    const Vec3 below = height > 0.0 ? normal - 2.0 * height * part_.bend : normal;
+    const double angle =
+        std::atan2(glm::dot(below, glm::cross(part_.along, part_.side)), glm::dot(below, part_.side));
+    const double own = angle / (2.0 * std::numbers::pi);
+    return {own + std::round(u - own),
+            part_.v + std::asin(std::clamp(height, -1.0, 1.0)) / (2.0 * std::numbers::pi)};
+  }
 
   void add_pole(double sign, std::uint32_t side) {
-    add_vertex(skeleton_.position[node_], end_radius_, part_.along * sign, (side + 0.5) / sides_,
-               v_at(sign * std::numbers::pi / 2.0));
+    const Vec3 normal = axis_ * sign;
+    const double u = (side + 0.5) / sides_;
+    add_vertex(skeleton_.position[node_], end_radius_, normal, u, on_sphere(u, normal).y);
   }
 
   const Skeleton& skeleton_;
   std::uint32_t node_;
   const NodePart& part_;
   double end_radius_;
-  std::uint32_t sides_ = 0;                                   // of what is being added
+  std::uint32_t sides_ = 0;                                   // of what is being added, like the two below
+  Vec3 axis_{0.0};                                            // unit: it stands around this
+  Vec3 side_{0.0};                                            // unit, of its first corner
   double ground_ = -std::numeric_limits<double>::infinity();  // nothing goes lower
   Mesh& mesh_;
   std::size_t vertex_;

@@ -16,9 +16,10 @@ constexpr double kLeastSeen = 0.03;
 // In radii of the lateral: so far from its bearer's surface the bearer's bark has faded out.
 constexpr float kFade = 0.6f;
 
-// In the same, and radii of the bearer: so far from the fork it has faded out in any case. Laterals that run
-// alongside their bearer stay near to it.
-constexpr float kFarthest = 3.0f;
+// In radii of both, by the sine of the angle between them: as far as the fork reaches, and twice that.
+// Laterals that run alongside their bearer would stay near to it.
+constexpr float kReach = 2.0f;
+constexpr double kLeastSine = 0.35;
 
 // In radii of both: laterals that leave an axis so near to one another meet.
 constexpr double kBeside = 1.5;
@@ -38,8 +39,7 @@ struct Joint {
   std::uint32_t older = 0;    // a node of the older axis, near
   float radius = 0.0f;        // of the lateral, metres
   float older_radius = 0.0f;
-
-  float farthest() const { return kFarthest * radius + 1.5f * older_radius; }
+  float reach = 0.0f;  // from the fork: there the older bark has faded out in any case
 };
 
 /// Whether a node continues its parent's axis.
@@ -89,8 +89,14 @@ class JointFinder {
   }
 
   void add(std::uint32_t lateral, std::uint32_t older) {
-    joints_.push_back({lateral, older, static_cast<float>(0.5 * skeleton_.diameter[lateral]),
-                       static_cast<float>(0.5 * skeleton_.diameter[older])});
+    Joint joint{.lateral = lateral, .older = older};
+    joint.radius = static_cast<float>(0.5 * skeleton_.diameter[lateral]);
+    joint.older_radius = static_cast<float>(0.5 * skeleton_.diameter[older]);
+    const Vec3 along = normalized_or(skeleton_.along(lateral), kUp);
+    const Vec3 older_along = normalized_or(skeleton_.along(older), kUp);
+    const auto sine = static_cast<float>(std::max(glm::length(glm::cross(along, older_along)), kLeastSine));
+    joint.reach = kReach * (joint.radius + joint.older_radius) / sine;
+    joints_.push_back(joint);
   }
 
   const Skeleton& skeleton_;
@@ -109,16 +115,16 @@ class AxisWalk {
     }
   }
 
-  /// `node` and those before and after it within `length` metres.
+  /// Those whose internodes lie within `length` metres of the node's own, along the axis.
   std::vector<std::uint32_t> around(std::uint32_t node, double length) const {
-    std::vector<std::uint32_t> nodes;
+    std::vector<std::uint32_t> nodes{node};
     double left = length;
-    for (std::uint32_t i = node; i != kNoParent && left >= 0.0; i = next_[i]) {
+    for (std::uint32_t i = next_[node]; i != kNoParent && left >= 0.0; i = next_[i]) {
       nodes.push_back(i);
       left -= skeleton_.length(i);
     }
-    left = length - skeleton_.length(node);
-    for (std::uint32_t i = node; left >= 0.0 && goes_on(skeleton_, i);) {
+    left = length;
+    for (std::uint32_t i = node; goes_on(skeleton_, i) && left >= 0.0;) {
       i = skeleton_.parent[i];
       nodes.push_back(i);
       left -= skeleton_.length(i);
@@ -226,7 +232,7 @@ class PatchMaker {
     if (glm::dot(point - nearest.point, normal) < kInside * cover.distance) cover.distance *= -1.0f;
     const float from_fork = glm::distance(point, Vec3f(skeleton_.position[skeleton_.parent[joint_.lateral]]));
     cover.opacity = (1.0f - glm::smoothstep(0.0f, fade_, cover.distance)) *
-                    (1.0f - glm::smoothstep(0.6f * joint_.farthest(), joint_.farthest(), from_fork));
+                    (1.0f - glm::smoothstep(0.6f * joint_.reach, joint_.reach, from_fork));
     return cover;
   }
 
@@ -290,6 +296,7 @@ void append_patches(Mesh& mesh, const std::vector<Joint>& joints, const std::vec
     vertices += patch.vertices.size();
     triangles += patch.triangles.size();
   }
+  if (triangles == triangle) return;
   if (mesh.colors.empty()) mesh.colors.resize(vertex, {255, 255, 255, 255});
   mesh.positions.resize(vertices);
   mesh.normals.resize(vertices);
@@ -324,8 +331,8 @@ void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const floa
   const AxisWalk walk(skeleton);
   std::vector<std::vector<std::uint32_t>> nodes;  // of the older axis and of the lateral, joint by joint
   for (const Joint& joint : joints) {
-    nodes.push_back(walk.around(joint.older, joint.farthest()));
-    nodes.push_back(walk.around(joint.lateral, joint.farthest()));
+    nodes.push_back(walk.around(joint.older, joint.reach));
+    nodes.push_back(walk.around(joint.lateral, joint.reach));
   }
   const TrianglesOfNodes triangles(mesh, *bark, skeleton.node_count(), nodes);
   std::vector<Patch> patches(joints.size());

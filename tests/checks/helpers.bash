@@ -27,14 +27,19 @@ skip() {
   exit 77
 }
 
-# generate PRESET FILE...: writes the files, prints how many triangles the program says they have.
+# generate PRESET FILE...: writes the files, prints how many triangles the program says they have; then how many a .glb
+# has, overlays included.
 generate() {
   local preset=$1 outputs=() file
   shift
   for file in "$@"; do
     outputs+=(-o "$file")
   done
-  "$program" generate "$preset" "${outputs[@]}" --json --quiet | sed -n 's/.*"triangles": *\([0-9][0-9]*\).*/\1/p'
+  local json solid overlay
+  json=$("$program" generate "$preset" "${outputs[@]}" --json --quiet)
+  solid=$(sed -n 's/.*"triangles": *\([0-9][0-9]*\).*/\1/p' <<< "$json")
+  overlay=$(sed -n 's/.*"overlay_triangles": *\([0-9][0-9]*\).*/\1/p' <<< "$json")
+  echo "$solid $((solid + overlay))"
 }
 
 # same_count WHAT EXPECTED ACTUAL: prints both numbers, fails where they differ or there is none.

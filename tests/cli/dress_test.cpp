@@ -64,7 +64,7 @@ TEST_CASE("dress: images and leaves of one's own are looked for beside the confi
   CHECK(outcome.code == 0);
   const nlohmann::json glb = json_of_glb(folder.file("a.glb"));
   CHECK(glb["images"].size() == 1);
-  CHECK(glb["meshes"][0]["primitives"].size() == 2);
+  CHECK(glb["meshes"][0]["primitives"].size() == 3);  // bark, leaves and bark over forks
 }
 
 TEST_CASE("dress: the example with a leaf of one's own works from its file") {
@@ -77,7 +77,7 @@ TEST_CASE("dress: the example with a leaf of one's own works from its file") {
   const auto json = nlohmann::json::parse(outcome.out);
   CHECK(json["leaves"]["count"].get<int>() > 10);
   const nlohmann::json glb = json_of_glb(folder.file("a.glb"));
-  REQUIRE(glb["materials"].size() == 3);  // bark, the midribs and the leaflets
+  REQUIRE(glb["materials"].size() == 4);  // bark, the midribs, the leaflets and bark over forks
   CHECK(glb["materials"][2]["name"] == "leaf-2");
 }
 

@@ -77,12 +77,13 @@ TEST_CASE("glTF: materials, images, texture coordinates and colours read back") 
   const Mesh mesh = make_tree_mesh(random_tree(1, 30), looks, 1).mesh;
   for (const GltfForm form : {GltfForm::binary, GltfForm::text}) {
     const Mesh again = read_gltf(gltf_of(mesh, form), "a");
-    REQUIRE(again.materials.size() == 2);
-    for (std::size_t i = 0; i < 2; ++i) {
+    REQUIRE(again.materials.size() == 3);  // bark, leaves and bark over forks
+    for (std::size_t i = 0; i < 3; ++i) {
       CHECK(again.materials[i].name == mesh.materials[i].name);
       CHECK(again.materials[i].image.rgba == mesh.materials[i].image.rgba);
       CHECK(again.materials[i].normal_map.rgba == mesh.materials[i].normal_map.rgba);
       CHECK(again.materials[i].is_cutout == mesh.materials[i].is_cutout);
+      CHECK(again.materials[i].is_overlay == mesh.materials[i].is_overlay);
       CHECK(again.materials[i].is_two_sided == mesh.materials[i].is_two_sided);
       CHECK(again.materials[i].roughness == mesh.materials[i].roughness);
     }

@@ -236,6 +236,49 @@ TEST_CASE("mesher: cones are closed, face outwards and fill what the cones and s
   }
 }
 
+TEST_CASE("mesher: where cones meet at a bend they have the same bark, and so has the sphere between them") {
+  for (const double turn_deg : {5.0, 30.0, 60.0, 90.0, 110.0}) {
+    const double turn = radians(turn_deg);
+    Skeleton tree;
+    add_node(tree, {0, 0, 0}, kNoParent, 0.2);
+    add_node(tree, {0, 1, 0}, 0, 0.2);
+    add_node(tree, {std::sin(turn), 1 + std::cos(turn), 0}, 1, 0.2);
+    assign_axes(tree);
+    const std::uint32_t sides = 12;
+    const Mesh mesh = build_mesh(tree, {.method = MeshMethod::cones, .sides_max = sides});
+    const Vec3 bend =
+        glm::normalize(Vec3(std::sin(turn), 1 + std::cos(turn), 0));  // the cones meet across it
+    const auto first_of = [&](std::uint32_t node) {
+      return static_cast<std::size_t>(std::find(mesh.internodes.begin(), mesh.internodes.end(), node) -
+                                      mesh.internodes.begin());
+    };
+    // A node's cone comes first: its lower ring, then its upper one.
+    const auto on_bend = [&](std::uint32_t node, std::uint32_t side) {
+      const std::size_t low = first_of(node) + side;
+      const std::size_t high = low + sides + 1;
+      const double from = glm::dot(Vec3(mesh.positions[low]) - Vec3(0, 1, 0), bend);
+      const double to = glm::dot(Vec3(mesh.positions[high]) - Vec3(0, 1, 0), bend);
+      return glm::mix(Vec2f(mesh.uvs[low]), Vec2f(mesh.uvs[high]), static_cast<float>(from / (from - to)));
+    };
+    INFO(turn_deg << " degrees");
+    for (std::uint32_t side = 0; side <= sides; ++side) {
+      const Vec2f below = on_bend(1, side);
+      CHECK(glm::distance(below, on_bend(2, side)) < 1e-4f);
+      CHECK(below.x == Approx(static_cast<float>(side) / sides));
+      CHECK(below.y == Approx(on_bend(1, 0).y).margin(1e-4));
+    }
+    // On the outer side a ring of the sphere lies in that plane.
+    std::size_t met = 0;
+    for (std::size_t v = first_of(1) + 2 * (sides + 1); v < first_of(2); ++v) {
+      const Vec3 from = Vec3(mesh.positions[v]) - Vec3(0, 1, 0);
+      if (std::abs(glm::dot(from, bend)) > 1e-6) continue;
+      ++met;
+      CHECK(mesh.uvs[v].y == Approx(on_bend(1, 0).y).margin(1e-4));
+    }
+    CHECK(met >= sides);
+  }
+}
+
 TEST_CASE("mesher: cones stand flat on the ground, but for a tree with roots") {
   const MesherOptions cones{.method = MeshMethod::cones};
   const auto lowest = [](const Mesh& mesh) {

@@ -278,6 +278,56 @@ TEST_CASE("renderer: two at a time do not disturb each other") {
   CHECK(a.render(tree.scene(), small(RenderStyle::schematic)).rgba == first.rgba);
 }
 
+TEST_CASE(
+    "lit: an overlay changes colours as far as its alpha says, no outline, no shadow and no plain colours") {
+  Tree tree(pole_of(3, 4.0, 0.8));
+  Mesh covered = tree.mesh;
+  const std::size_t first = covered.triangles.size();
+  const auto count = static_cast<std::uint32_t>(covered.vertex_count());
+  covered.colors.assign(count, {200, 200, 200, 255});
+  tree.mesh.colors = covered.colors;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    covered.positions.push_back(Vec3f(covered.positions[v]));
+    covered.normals.push_back(Vec3f(covered.normals[v]));
+    covered.uvs.push_back(Vec2f(covered.uvs[v]));
+    covered.colors.push_back({255, 0, 0, 255});
+    covered.internodes.push_back(covered.internodes[v]);
+  }
+  for (std::size_t t = 0; t < first; ++t) {
+    const Triangle triangle = covered.triangles[t];
+    covered.triangles.push_back({triangle[0] + count, triangle[1] + count, triangle[2] + count});
+  }
+  covered.materials.push_back(covered.materials[0]);
+  covered.materials.back().is_overlay = true;
+  covered.ranges.push_back({covered.materials.size() - 1, first, first});
+
+  Renderer renderer;
+  const auto drawn = [&](const Mesh& mesh, RenderOptions options) {
+    return renderer.render({.mesh = &mesh, .skeleton = &tree.skeleton}, options);
+  };
+  const auto reddest = [](const Image& image) {
+    int most = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+      most = std::max(most, image.rgba[i] - image.rgba[i + 1]);
+    return most;
+  };
+  RenderOptions options = small(RenderStyle::lit);
+  options.background = parse_color("transparent");
+  const Image bare = drawn(tree.mesh, options);
+  const Image opaque = drawn(covered, options);
+  for (std::size_t v = count; v < covered.vertex_count(); ++v) covered.colors[v][3] = 128;
+  const Image half = drawn(covered, options);
+  CHECK(reddest(bare) < 40);
+  CHECK(reddest(opaque) > 100);
+  CHECK(reddest(half) > 40);
+  CHECK(reddest(half) < reddest(opaque));
+  for (std::size_t i = 3; i < bare.rgba.size(); i += 4) CHECK(int{opaque.rgba[i]} == int{bare.rgba[i]});
+  for (std::size_t v = count; v < covered.vertex_count(); ++v) covered.colors[v][3] = 0;
+  CHECK(drawn(covered, options).rgba == bare.rgba);
+  const RenderOptions schematic = small(RenderStyle::schematic);
+  CHECK(drawn(covered, schematic).rgba == drawn(tree.mesh, schematic).rgba);
+}
+
 TEST_CASE("renderer: a tree without internodes shows the background and the ground") {
   Skeleton seed = pole_of(1, 4.0, 0.8);
   seed.position.resize(1);
