@@ -183,6 +183,13 @@ int add_indices(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh, co
                       TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
 }
 
+/// Those of leaves, which may have normal maps of their own, are not known.
+bool has_tangents(const Mesh& mesh, const MaterialRange& range) {
+  const Material& material = mesh.material(range);
+  return !mesh.tangents.empty() && !material.normal_map.is_empty() &&
+         (material.is_overlay || material.name == "bark");
+}
+
 void add_mesh(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh) {
   tinygltf::Mesh tree;
   tree.name = "tree";
@@ -197,10 +204,13 @@ void add_mesh(tinygltf::Model& model, BinaryPart& binary, const Mesh& mesh) {
     set_bounds(model.accessors.back(), std::span(mesh.positions).subspan(window.first, window.count));
     primitive.attributes["NORMAL"] = add_attribute(model, binary, mesh.normals, window, TINYGLTF_TYPE_VEC3);
     primitive.attributes["TEXCOORD_0"] = add_uvs(model, binary, mesh, window);
-    const bool has_tangents = window.first + window.count <= mesh.tangents.size();
-    if (has_tangents && !mesh.material(range).normal_map.is_empty()) {
+    if (has_tangents(mesh, range)) {
+      // An overlay's are the last, whatever vertices without one come between.
+      Window tangents = window;
+      if (mesh.material(range).is_overlay)
+        tangents.first = static_cast<std::uint32_t>(mesh.tangents.size() - window.count);
       primitive.attributes["TANGENT"] =
-          add_attribute(model, binary, mesh.tangents, window, TINYGLTF_TYPE_VEC4);
+          add_attribute(model, binary, mesh.tangents, tangents, TINYGLTF_TYPE_VEC4);
     }
     if (!mesh.colors.empty()) primitive.attributes["COLOR_0"] = add_colors(model, binary, mesh, window);
     primitive.indices = add_indices(model, binary, mesh, range, window);

@@ -38,12 +38,13 @@ struct Mesh {
   BulkVector<Vec3f> positions;  // metres
   BulkVector<Vec3f> normals;    // unit length, one a vertex
   BulkVector<Vec2f> uvs;  // one a vertex; v = 0 is an image's lower edge. Bark: u around the branch, v along
-  BulkVector<glm::vec4>
-      tangents;  // along +u, unit length; w = 1 or -1: bitangent = w * cross(normal, xyz). Or empty
+  BulkVector<glm::vec4> tangents;  // along +u, unit length; w = 1 or -1: bitangent = w * cross(normal, xyz).
+                                   // One for each vertex of the wood, then for each of its overlay; or empty
   BulkVector<std::array<std::uint8_t, 4>> colors;  // sRGB and alpha, one a vertex; empty: none
   BulkVector<std::uint32_t> internodes;            // the skeleton node that each vertex belongs to
   BulkVector<Triangle> triangles;
-  std::vector<MaterialRange> ranges;  // in order, covering all triangles; overlays, whose vertices are their own, come last
+  std::vector<MaterialRange>
+      ranges;  // in order, covering all triangles; overlays, whose vertices are their own, come last
   std::vector<Material> materials;
   std::vector<std::string> warnings;  // of the mesher, one line each
 

@@ -1,6 +1,7 @@
 #include "common/mesh/tangents.h"
 
 #include <algorithm>
+#include <span>
 
 #include "common/base/parallel.h"
 
@@ -89,6 +90,20 @@ void compute_tangents(Mesh& mesh) {
       mesh.tangents[vertex] = tangent_of(mesh.tangents[vertex], mesh.normals[vertex]);
     }
   });
+}
+
+void append_overlay_tangents(Mesh& mesh) {
+  if (mesh.tangents.empty() || mesh.ranges.empty() || !mesh.material(mesh.ranges.back()).is_overlay) return;
+  const SolidPart solid = solid_part(mesh);
+  std::vector<glm::vec4> sums(mesh.vertex_count() - solid.vertex_count, glm::vec4(0.0f));
+  for (const Triangle& triangle : std::span(mesh.triangles).subspan(solid.triangle_count)) {
+    const glm::vec4 slope = slope_along_u(mesh, triangle);
+    for (const std::uint32_t vertex : triangle) sums[vertex - solid.vertex_count] += slope;
+  }
+  resize_with_spare(mesh.tangents, mesh.tangents.size() + sums.size());
+  glm::vec4* tangents = mesh.tangents.data() + mesh.tangents.size() - sums.size();
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    tangents[i] = tangent_of(sums[i], mesh.normals[solid.vertex_count + i]);
 }
 
 }  // namespace ramify

@@ -12,4 +12,7 @@ namespace ramify {
 /// Clears them where no material has a normal map. O(n), on all threads, the same for any number of them.
 void compute_tangents(Mesh& mesh);
 
+/// Appends those of the overlay that was laid over the mesh since. O(triangles of the overlay).
+void append_overlay_tangents(Mesh& mesh);
+
 }  // namespace ramify

@@ -37,8 +37,10 @@ TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint6
     compute_tangents(tree.mesh);
   }
   if (looks.leaves.is_on()) add_leaves(tree, skeleton, looks, seed);
-  if (has_bark && has_fork_bark(looks.mesher))
+  if (has_bark && has_fork_bark(looks.mesher)) {
     append_fork_bark(tree.mesh, skeleton, bark_repeats(skeleton, looks.bark.tile_width));
+    append_overlay_tangents(tree.mesh);
+  }
   return tree;
 }
 

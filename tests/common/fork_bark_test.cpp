@@ -256,6 +256,14 @@ TEST_CASE("fork bark: the rest of the mesh is what it is without") {
       CHECK((v < solid.vertex_count) == (t < solid.triangle_count));
   }
   for (std::size_t v = 0; v < solid.vertex_count; ++v) CHECK(mesh.colors[v][3] == 255);
+
+  // Leaves have no tangents: the overlay's follow those of the wood.
+  const std::size_t overlay = mesh.vertex_count() - solid.vertex_count;
+  REQUIRE(mesh.tangents.size() == wood.vertex_count() + overlay);
+  for (std::size_t i = 0; i < overlay; ++i) {
+    const Vec3f tangent(mesh.tangents[wood.vertex_count() + i]);
+    CHECK(glm::dot(tangent, mesh.normals[solid.vertex_count + i]) == Approx(0.0f).margin(1e-4));
+  }
 }
 
 TEST_CASE(
@@ -272,6 +280,7 @@ TEST_CASE(
   CHECK(json["materials"][1]["normalTexture"] == json["materials"][0]["normalTexture"]);
   CHECK(json["images"].size() == 2);
   CHECK(json["meshes"][0]["primitives"][1]["attributes"].contains("COLOR_0"));
+  CHECK(json["meshes"][0]["primitives"][1]["attributes"].contains("TANGENT"));
 
   const Mesh again = read_gltf(gltf.str(), "a");
   REQUIRE(overlay_of(again) != nullptr);
