@@ -5,24 +5,14 @@
 #include <map>
 
 #include "common/base/parallel.h"
+#include "common/mesh/joints.h"
 #include "common/mesh/nearest_triangle.h"
 
 namespace ramify {
 namespace {
 
-// Of the thickest wood: thinner laterals have no collar, and nobody looks at their bark.
-constexpr double kLeastSeen = 0.03;
-
 // In radii of the lateral: so far from its bearer's surface the bearer's bark has faded out.
 constexpr float kFade = 0.6f;
-
-// In radii of both, by the sine of the angle between them: as far as the fork reaches, and twice that.
-// Laterals that run alongside their bearer would stay near to it.
-constexpr float kReach = 2.0f;
-constexpr double kLeastSine = 0.35;
-
-// In radii of both: laterals that leave an axis so near to one another meet.
-constexpr double kBeside = 1.5;
 
 // What fades out does so over triangles shorter than this, in fades: else there is no collar.
 constexpr float kLongest = 4.0f;
@@ -33,119 +23,16 @@ constexpr float kAbove = 0.004f;
 // Cosine between a surface's normal and the way to a point below which that lies inside.
 constexpr float kInside = -0.7f;
 
-/// Where a lateral meets older wood: its bearer, or a lateral that leaves that beside it.
-struct Joint {
-  std::uint32_t lateral = 0;  // its first node
-  std::uint32_t older = 0;    // a node of the older axis, near
-  float radius = 0.0f;        // of the lateral, metres
-  float older_radius = 0.0f;
-  float reach = 0.0f;  // from the fork: there the older bark has faded out in any case
-};
-
-/// Whether a node continues its parent's axis.
-bool goes_on(const Skeleton& skeleton, std::uint32_t node) {
-  if (skeleton.is_root(node)) return false;
-  const std::uint32_t parent = skeleton.parent[node];
-  return !skeleton.is_root(parent) && skeleton.axis[parent] == skeleton.axis[node];
-}
-
-class JointFinder {
- public:
-  explicit JointFinder(const Skeleton& skeleton) : skeleton_(skeleton), first_(skeleton.node_count()) {}
-
-  std::vector<Joint> find() {
-    const double thickest = *std::max_element(skeleton_.diameter.begin(), skeleton_.diameter.end());
-    for (std::uint32_t node = 0; node < first_.size(); ++node) {
-      first_[node] = goes_on(skeleton_, node) ? first_[skeleton_.parent[node]] : node;
-      const bool is_lateral =
-          first_[node] == node && !skeleton_.is_root(node) && !skeleton_.is_root(skeleton_.parent[node]);
-      if (is_lateral && skeleton_.diameter[node] >= kLeastSeen * thickest) add_lateral(node);
-    }
-    return std::move(joints_);
-  }
-
- private:
-  /// Its bearer, what leaves that beside it, and where the bearer itself has just begun, what bears that.
-  void add_lateral(std::uint32_t lateral) {
-    const std::uint32_t bearer = first_[skeleton_.parent[lateral]];
-    std::uint32_t fork = skeleton_.parent[lateral];
-    while (!skeleton_.is_root(fork)) {
-      const std::uint32_t older = first_[fork];
-      for (const std::uint32_t beside : laterals_[older]) {
-        if (beside != bearer && is_near(lateral, beside)) add(lateral, beside);
-      }
-      add(lateral, fork);
-      if (!is_near(lateral, older)) break;
-      fork = skeleton_.parent[older];
-    }
-    laterals_[bearer].push_back(lateral);
-  }
-
-  /// Whether two axes begin so near to one another that they meet.
-  bool is_near(std::uint32_t lateral, std::uint32_t other) const {
-    const double apart = glm::distance(skeleton_.position[skeleton_.parent[other]],
-                                       skeleton_.position[skeleton_.parent[lateral]]);
-    return apart < kBeside * 0.5 * (skeleton_.diameter[lateral] + skeleton_.diameter[other]);
-  }
-
-  void add(std::uint32_t lateral, std::uint32_t older) {
-    Joint joint{.lateral = lateral, .older = older};
-    joint.radius = static_cast<float>(0.5 * skeleton_.diameter[lateral]);
-    joint.older_radius = static_cast<float>(0.5 * skeleton_.diameter[older]);
-    const Vec3 along = normalized_or(skeleton_.along(lateral), kUp);
-    const Vec3 older_along = normalized_or(skeleton_.along(older), kUp);
-    const auto sine = static_cast<float>(std::max(glm::length(glm::cross(along, older_along)), kLeastSine));
-    joint.reach = kReach * (joint.radius + joint.older_radius) / sine;
-    joints_.push_back(joint);
-  }
-
-  const Skeleton& skeleton_;
-  std::vector<std::uint32_t> first_;                              // node of each node's axis
-  std::map<std::uint32_t, std::vector<std::uint32_t>> laterals_;  // of an axis, by its first node
-  std::vector<Joint> joints_;
-};
-
-/// Nodes of an axis by where they are on it.
-class AxisWalk {
- public:
-  explicit AxisWalk(const Skeleton& skeleton) : skeleton_(skeleton), next_(skeleton.node_count(), kNoParent) {
-    for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
-      const auto own = static_cast<std::uint32_t>(node);
-      if (goes_on(skeleton, own)) next_[skeleton.parent[node]] = own;
-    }
-  }
-
-  /// Those whose internodes lie within `length` metres of the node's own, along the axis.
-  std::vector<std::uint32_t> around(std::uint32_t node, double length) const {
-    std::vector<std::uint32_t> nodes{node};
-    double left = length;
-    for (std::uint32_t i = next_[node]; i != kNoParent && left >= 0.0; i = next_[i]) {
-      nodes.push_back(i);
-      left -= skeleton_.length(i);
-    }
-    left = length;
-    for (std::uint32_t i = node; goes_on(skeleton_, i) && left >= 0.0;) {
-      i = skeleton_.parent[i];
-      nodes.push_back(i);
-      left -= skeleton_.length(i);
-    }
-    return nodes;
-  }
-
- private:
-  const Skeleton& skeleton_;
-  std::vector<std::uint32_t> next_;  // of each node, the one that goes on along its axis
-};
-
 /// The bark's triangles of some internodes.
 class TrianglesOfNodes {
  public:
   TrianglesOfNodes(const Mesh& mesh, const MaterialRange& bark, std::size_t node_count,
-                   const std::vector<std::vector<std::uint32_t>>& wanted)
+                   const std::vector<Joint>& joints)
       : begin_(node_count + 1, 0) {
     std::vector<bool> is_wanted(node_count, false);
-    for (const auto& nodes : wanted) {
-      for (const std::uint32_t node : nodes) is_wanted[node] = true;
+    for (const Joint& joint : joints) {
+      for (const std::uint32_t node : joint.lateral_nodes) is_wanted[node] = true;
+      for (const std::uint32_t node : joint.older_nodes) is_wanted[node] = true;
     }
     const std::size_t end = bark.first_triangle + bark.triangle_count;
     const auto node_of = [&](std::size_t t) { return mesh.internodes[mesh.triangles[t][0]]; };
@@ -327,19 +214,14 @@ void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const floa
   const auto bark = std::find_if(mesh.ranges.begin(), mesh.ranges.end(), is_bark);
   if (bark == mesh.ranges.end() || mesh.material(*bark).image.is_empty()) return;
 
-  const std::vector<Joint> joints = JointFinder(skeleton).find();
-  const AxisWalk walk(skeleton);
-  std::vector<std::vector<std::uint32_t>> nodes;  // of the older axis and of the lateral, joint by joint
-  for (const Joint& joint : joints) {
-    nodes.push_back(walk.around(joint.older, joint.reach));
-    nodes.push_back(walk.around(joint.lateral, joint.reach));
-  }
-  const TrianglesOfNodes triangles(mesh, *bark, skeleton.node_count(), nodes);
+  const std::vector<Joint> joints = find_joints(skeleton);
+  const TrianglesOfNodes triangles(mesh, *bark, skeleton.node_count(), joints);
   std::vector<Patch> patches(joints.size());
   parallel_for(joints.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      patches[i] = PatchMaker(mesh, skeleton, joints[i], repeats[joints[i].older])
-                       .make(triangles.of(nodes[2 * i]), triangles.of(nodes[2 * i + 1]));
+      const Joint& joint = joints[i];
+      patches[i] = PatchMaker(mesh, skeleton, joint, repeats[joint.older])
+                       .make(triangles.of(joint.older_nodes), triangles.of(joint.lateral_nodes));
     }
   });
 

@@ -1,0 +1,111 @@
+#include "common/mesh/joints.h"
+
+#include <algorithm>
+#include <map>
+
+namespace ramify {
+namespace {
+
+// Of the thickest wood: thinner laterals have no collar, and nobody looks at their bark.
+constexpr double kLeastSeen = 0.03;
+
+// In radii of both, by the sine of the angle between them: twice as far as their surfaces meet.
+constexpr float kReach = 2.0f;
+constexpr double kLeastSine = 0.35;
+
+// In radii of both: laterals that leave an axis so near to one another meet.
+constexpr double kBeside = 1.5;
+
+class JointFinder {
+ public:
+  explicit JointFinder(const Skeleton& skeleton)
+      : skeleton_(skeleton), first_(skeleton.node_count()), next_(skeleton.node_count(), kNoParent) {}
+
+  std::vector<Joint> find() {
+    const double thickest = *std::max_element(skeleton_.diameter.begin(), skeleton_.diameter.end());
+    for (std::uint32_t node = 0; node < first_.size(); ++node) {
+      const std::uint32_t parent = skeleton_.parent[node];
+      first_[node] = node;
+      if (skeleton_.is_root(node) || skeleton_.is_root(parent)) continue;
+      if (skeleton_.axis[parent] == skeleton_.axis[node]) {
+        first_[node] = first_[parent];
+        next_[parent] = node;
+      } else if (skeleton_.diameter[node] >= kLeastSeen * thickest) {
+        add_lateral(node);
+      }
+    }
+    for (Joint& joint : joints_) {
+      joint.lateral_nodes = nodes_around(joint.lateral, joint.reach);
+      joint.older_nodes = nodes_around(joint.older, joint.reach);
+    }
+    return std::move(joints_);
+  }
+
+ private:
+  /// Its bearer, what leaves that beside it, and where the bearer itself has just begun, what bears that.
+  void add_lateral(std::uint32_t lateral) {
+    const std::uint32_t bearer = first_[skeleton_.parent[lateral]];
+    std::uint32_t fork = skeleton_.parent[lateral];
+    while (!skeleton_.is_root(fork)) {
+      const std::uint32_t older = first_[fork];
+      for (const std::uint32_t beside : laterals_[older]) {
+        if (beside != bearer && is_near(lateral, beside)) add(lateral, beside);
+      }
+      add(lateral, fork);
+      if (!is_near(lateral, older)) break;
+      fork = skeleton_.parent[older];
+    }
+    laterals_[bearer].push_back(lateral);
+  }
+
+  /// Whether two axes begin so near to one another that they meet.
+  bool is_near(std::uint32_t lateral, std::uint32_t other) const {
+    const double apart = glm::distance(skeleton_.position[skeleton_.parent[other]],
+                                       skeleton_.position[skeleton_.parent[lateral]]);
+    return apart < kBeside * 0.5 * (skeleton_.diameter[lateral] + skeleton_.diameter[other]);
+  }
+
+  void add(std::uint32_t lateral, std::uint32_t older) {
+    Joint joint;
+    joint.lateral = lateral;
+    joint.older = older;
+    joint.radius = static_cast<float>(0.5 * skeleton_.diameter[lateral]);
+    joint.older_radius = static_cast<float>(0.5 * skeleton_.diameter[older]);
+    const Vec3 along = normalized_or(skeleton_.along(lateral), kUp);
+    const Vec3 older_along = normalized_or(skeleton_.along(older), kUp);
+    const auto sine = static_cast<float>(std::max(glm::length(glm::cross(along, older_along)), kLeastSine));
+    joint.reach = kReach * (joint.radius + joint.older_radius) / sine;
+    joints_.push_back(std::move(joint));
+  }
+
+  /// Those whose internodes lie within `length` metres of the node's own, along the axis.
+  std::vector<std::uint32_t> nodes_around(std::uint32_t node, double length) const {
+    std::vector<std::uint32_t> nodes{node};
+    double left = length;
+    for (std::uint32_t i = next_[node]; i != kNoParent && left >= 0.0; i = next_[i]) {
+      nodes.push_back(i);
+      left -= skeleton_.length(i);
+    }
+    left = length;
+    for (std::uint32_t i = node; first_[i] != i && left >= 0.0;) {
+      i = skeleton_.parent[i];
+      nodes.push_back(i);
+      left -= skeleton_.length(i);
+    }
+    return nodes;
+  }
+
+  const Skeleton& skeleton_;
+  std::vector<std::uint32_t> first_;                              // node of each node's axis
+  std::vector<std::uint32_t> next_;                               // node on its axis
+  std::map<std::uint32_t, std::vector<std::uint32_t>> laterals_;  // of an axis, by its first node
+  std::vector<Joint> joints_;
+};
+
+}  // namespace
+
+std::vector<Joint> find_joints(const Skeleton& skeleton) {
+  return JointFinder(skeleton).find();
+}
+
+}  // namespace ramify
