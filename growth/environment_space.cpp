@@ -40,8 +40,9 @@ double occupied_radius(const TreeParameters& tree, int step) {
   return tree.rho.at(step) * tree.internode_length.at(step);
 }
 
-void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step) {
-  std::vector<Seeker> seekers;
+void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step, SpaceSearch& search) {
+  std::vector<Seeker>& seekers = search.seekers;
+  seekers.clear();
   for (GrowingTree& tree : trees) {
     tree.light.assign(tree.plant.buds.size(), 0.0);
     tree.space.resize(tree.plant.buds.size());
@@ -51,15 +52,16 @@ void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step) {
       const Bud& bud = tree.plant.buds[i];
       const Vec3f& direction = tree.plant.bud_direction[i];
       tree.space[i] = direction;
-      if (bud.is_blind || markers.is_barren(tree.plant.position[bud.node])) continue;
-      seekers.push_back({tree.plant.position[bud.node], Vec3(direction), radius, min_cosine});
+      if (bud.is_blind) continue;
+      const Vec3& position = tree.plant.position[bud.node];
+      if (markers.is_barren(position)) continue;
+      seekers.push_back({position, Vec3(direction), radius, min_cosine});
       tree.light[i] = 1.0;  // that it looks; for the second pass
     }
   }
 
-  std::vector<Claim> claims;
-  markers.claim(seekers, claims);
-  auto claim = claims.cbegin();
+  markers.claim(seekers, search.claims);
+  auto claim = search.claims.cbegin();
   for (GrowingTree& tree : trees) {
     const bool is_final = sight_never_widens(tree.place, step);
     for (std::size_t i = 0; i < tree.light.size(); ++i) {

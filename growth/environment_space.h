@@ -15,8 +15,14 @@ Markers scattered_markers(const Parameters& world, const std::vector<TreePlace>&
 /// A node of this tree made at this step takes the markers within rho.
 double occupied_radius(const TreeParameters& tree, int step);
 
+/// Working arrays of sense_space(), so that they need not be made anew in each step.
+struct SpaceSearch {
+  std::vector<Seeker> seekers;
+  std::vector<Claim> claims;
+};
+
 /// Gives each marker to the nearest bud of any tree that sees it. Sets Q of each bud, 1 with a marker and 0
 /// without, and V, towards its markers.
-void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step);
+void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step, SpaceSearch& search);
 
 }  // namespace ramify::growth

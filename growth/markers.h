@@ -1,6 +1,6 @@
 // Marker points: the free space that buds compete for. A. Runions, B. Lane, P. Prusinkiewicz, Modeling trees
-// with a space colonization algorithm, 2007; Palubicki et al. 2009, 4.1. The points stand in cells of a dense
-// grid, so that what a bud costs depends on the markers near it, not on their number.
+// with a space colonization algorithm, 2007; Palubicki et al. 2009, 4.1. What a bud costs
+// depends on the markers near it, not on their number.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,8 @@
 
 #include "common/base/geometry.h"
 #include "common/config/layer.h"
+#include "growth/marker_cone.h"
+#include "growth/marker_grid.h"
 
 namespace ramify {
 class Solid;
@@ -38,8 +40,7 @@ class Markers {
   /// round(density * volume) markers, uniformly random in `solid`; `volume` in cubic metres, `density` per
   /// cubic metre. Marker i depends on the solid, the seed and i alone. `reach`: the greatest distance,
   /// metres, > 0, at which claim() will ever be asked. Throws RunError if there are too many markers or the
-  /// solid is too small a part of its box to find points inside. 20 to 60 bytes a marker: where there are few
-  /// in a large box, the cells are wider.
+  /// solid is too small a part of its box to find points inside. 30 to 60 bytes a marker.
   Markers(const Solid& solid, double volume, double density, std::uint64_t seed, double reach);
 
   /// Takes away for good the markers within `radius` of these points. Costs each point the cells it touches.
@@ -48,83 +49,34 @@ class Markers {
   /// Gives each marker to the nearest of the seekers that see it, ties to the lower number; a claim a seeker.
   /// Every radius must be <= reach. The cone's edge belongs to it. Near is by the squared distance rounded to
   /// a float. On all threads, with the same result for any number of them. A seeker costs the markers near
-  /// it, a barren one some nanoseconds. Fewer than 2^32 - 1 seekers. Not const for its working arrays only,
+  /// it. Fewer than 2^32 - 1 seekers. Not const for its working arrays only,
   /// which are kept from call to call: some 100 bytes a seeker.
   void claim(std::span<const Seeker> seekers, std::vector<Claim>& claims);
 
   /// Whether no marker is left within `reach` of the point: then there never will be one again. One lookup
   /// in a table; may say false where a closer look would say true.
-  bool is_barren(const Vec3& point) const;
+  bool is_barren(const Vec3& point) const { return grid_.is_barren(point); }
 
   /// How many are left.
-  std::size_t count() const { return count_; }
+  std::size_t count() const { return grid_.count(); }
 
   /// Those that are left.
   PointLayer layer() const;
 
  private:
-  /// Its markers, from begin to before end. Those taken away stand between end and the next cell's begin.
-  struct Cell {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
-
-    bool is_empty() const { return begin == end; }
-  };
-  struct Drawn {
-    Vec3f offset;
-    std::uint32_t cell = 0;
-  };
-  struct Cone;
-  struct View;
-
-  void lay_out_cells(double marker_count);
-  void sort_into_cells(std::span<const Drawn> drawn);
-  void count_neighbours();
-  void remove_within(const Vec3& point, double radius, std::vector<std::uint32_t>& room);
-  void add_to_neighbourhood(const Coord& cell, std::uint8_t amount);
-  void sort_into_bricks(std::span<const Seeker> seekers, std::vector<Claim>& claims);
-  void find_runs(const Vec3& from_low, const Cone& cone, std::vector<Cell>& runs) const;
-  std::span<const std::uint32_t> look_over(std::span<const Cell> runs, View view,
-                                           std::vector<std::uint32_t>& room) const;
-  std::uint32_t contend(const Vec3& from_low, std::uint32_t number, const Cone& cone,
-                        std::span<const std::uint32_t> candidates, std::vector<std::uint32_t>& won);
+  void sort_into_bricks(std::span<const Seeker> seekers);
+  std::span<const std::uint32_t> look_over(const Cone& cone, MarkerGrid::Search& search) const;
+  std::uint32_t contend(const Cone& cone, std::uint32_t number, std::span<const std::uint32_t> candidates,
+                        std::vector<std::uint32_t>& won);
   Claim collect(const Seeker& seeker, std::uint32_t number, std::span<const std::uint32_t> won);
 
-  /// From the box's low corner to marker i.
-  Vec3 offset(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-
-  /// The nearest, for an offset outside.
-  Coord cell_of(const Vec3& offset) const {
-    return Coord(glm::clamp(offset * inverse_edge_, Vec3(0.0), last_cell_));
-  }
-
-  std::size_t index_of(const Coord& cell) const {
-    return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size_.y) +
-            static_cast<std::size_t>(cell.y)) *
-               static_cast<std::size_t>(size_.x) +
-           static_cast<std::size_t>(cell.x);
-  }
-
-  Box box_;  // of the solid
-  Vec3 box_size_{0.0};
-  double reach_;         // metres
-  double square_reach_;  // and a little more
-  double edge_ = 1.0;    // of a cell, metres
-  double inverse_edge_ = 1.0;
-  Coord size_{1};  // cells along each axis
-  Vec3 last_cell_{0.0};
-  int dilation_ = 1;  // so many cells are at least `reach` wide
-  std::size_t count_ = 0;
-
-  std::vector<Cell> cells_;               // x fastest
-  std::vector<std::uint8_t> neighbours_;  // how many cells within `dilation_` of a cell have markers
-  std::vector<float> x_, y_, z_;          // offsets of the markers, cell by cell
-  std::vector<std::uint64_t> best_;       // the best bid for each marker; kNoBid between calls
+  MarkerGrid grid_;
+  std::vector<std::uint64_t> best_;  // the best bid for each marker, by place; kNoBid between calls
 
   // Of the last claim
   std::vector<std::uint32_t> brick_;             // of each seeker
   std::vector<std::uint32_t> brick_end_;         // of each brick's seekers in `order_`
-  std::vector<std::uint32_t> order_;             // the seekers that are not barren, brick by brick
+  std::vector<std::uint32_t> order_;             // all seekers, brick by brick
   std::vector<Seeker> sorted_;                   // the same, themselves
   std::vector<std::uint32_t> win_count_;         // how often each of them was the best so far
   std::vector<std::uint8_t> saw_;                // of each seeker, whether any marker is in sight

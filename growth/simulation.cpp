@@ -94,7 +94,7 @@ std::size_t Simulation::internode_count() const {
 void Simulation::sense() {
   const int step = step_ + 1;
   if (markers_) {
-    sense_space(trees_, *markers_, step);
+    sense_space(trees_, *markers_, step, space_search_);
   } else {
     for (GrowingTree& tree : trees_) {
       sense_light(tree.plant, world_, tree.place, field_, step, tree.light);

@@ -6,6 +6,7 @@
 
 #include "common/base/stopwatch.h"
 #include "growth/barriers.h"
+#include "growth/environment_space.h"
 #include "growth/growing_tree.h"
 #include "growth/light_field.h"
 #include "growth/markers.h"
@@ -52,6 +53,7 @@ class Simulation {
   LightField field_;
   Barriers barriers_;
   std::optional<Markers> markers_;
+  SpaceSearch space_search_;
   std::vector<GrowingTree> trees_;
   CasterChanges changes_;
   int step_ = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -45,6 +46,33 @@ inline Lanes all_lanes(float value) {
 inline Lanes magnitude(const Lanes& values) {
   constexpr std::int32_t kAllButSign = 0x7fffffff;
   return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(values) & kAllButSign);
+}
+
+/// Lane by lane.
+inline Lanes lesser(const Lanes& a, const Lanes& b) {
+  return a < b ? a : b;
+}
+inline Lanes greater(const Lanes& a, const Lanes& b) {
+  return a > b ? a : b;
+}
+
+/// Of values that are not negative.
+inline Lanes square_root(const Lanes& values) {
+#ifdef __SSSE3__
+  return reinterpret_cast<Lanes>(_mm_sqrt_ps(reinterpret_cast<__m128>(values)));
+#else
+  Lanes roots;
+  for (std::size_t k = 0; k < kLanes; ++k) roots[k] = std::sqrt(values[k]);
+  return roots;
+#endif
+}
+
+/// Without their fractions, which are lost; of values that fit.
+inline LaneMask whole(const Lanes& values) {
+  return __builtin_convertvector(values, LaneMask);
+}
+inline Lanes as_lanes(const LaneMask& values) {
+  return __builtin_convertvector(values, Lanes);
 }
 
 /// One bit a lane, the first lane's lowest: whether it is set, or negative.
