@@ -161,9 +161,14 @@ void Simulation::extend(GrowingTree& tree, int step) {
   const Guides guides{world_, tree.place, tree.place.seed, barriers_, field_, tree.space};
   ShootPlanner planner(plant, tree.vigour, tree.place, step);
   const std::size_t first = plant.node_count();
-  for (auto shoots = planner.next(kShootsAtOnce); !shoots.empty(); shoots = planner.next(kShootsAtOnce)) {
-    const Traces traces = trace_shoots(shoots, plant, guides, step);
+  std::vector<Shoot> shoots = planner.next(kShootsAtOnce);
+  while (!shoots.empty()) {
+    Traces traces;
+    std::vector<Shoot> next;
+    side_by_side([&] { traces = trace_shoots(shoots, plant, guides, step); },
+                 [&] { next = planner.next(kShootsAtOnce); });
     build_shoots(plant, shoots, traces, world_, tree.place, shadow_, step, changes_);
+    shoots = std::move(next);
   }
   if (tree.place.tip_bud == TipBud::terminal && buds_per_node(tree.place) > 1) sort_buds(plant);
   follow_growth(plant, first, tree.shaded);
