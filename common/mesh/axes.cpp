@@ -1,10 +1,13 @@
 #include "common/mesh/axes.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <mutex>
 
+#include "common/base/lanes.h"
 #include "common/base/parallel.h"
+#include "common/mesh/point_marks.h"
 #include "common/mesh/wood.h"
 
 namespace ramify {
@@ -55,28 +58,29 @@ Places find_places(const Skeleton& skeleton) {
   return places;
 }
 
-/// What is met on the way along all nodes: a way of its own would read them once more.
+/// What is met on the way along all nodes: a way of its own would read them once more. Of position and
+/// radius, metres.
 struct Extremes {
-  Vec3 coordinate{0.0};                                    // greatest, without signs, metres
-  double least = std::numeric_limits<double>::infinity();  // diameter, metres
-  double greatest = 0.0;
+  Lanes magnitude = all_lanes(0.0f);  // greatest
+  Lanes least = all_lanes(std::numeric_limits<float>::infinity());
 
-  void include(const Vec3& position, double diameter) {
-    coordinate = glm::max(coordinate, glm::abs(position));
-    least = std::min(least, diameter);
-    greatest = std::max(greatest, diameter);
-  }
+  void include(const Lanes& point) { include({.magnitude = ramify::magnitude(point), .least = point}); }
   void include(const Extremes& other) {
-    coordinate = glm::max(coordinate, other.coordinate);
-    least = std::min(least, other.least);
-    greatest = std::max(greatest, other.greatest);
+    magnitude = magnitude > other.magnitude ? magnitude : other.magnitude;
+    least = least < other.least ? least : other.least;
   }
 };
 
-AxisPoint point_at(const Skeleton& skeleton, std::size_t node) {
-  return {.position = Vec3f(skeleton.position[node]),
-          .radius = 0.5f * static_cast<float>(skeleton.diameter[node]),
-          .node = static_cast<std::uint32_t>(node)};
+/// A node's position and radius, the first four numbers of an AxisPoint.
+Lanes place_of(const Skeleton& skeleton, std::size_t node) {
+  const Vec3f position(skeleton.position[node]);
+  return Lanes{position.x, position.y, position.z, 0.5f * static_cast<float>(skeleton.diameter[node])};
+}
+
+void set_point(const Lanes& place, std::size_t node, AxisPoint& point) {
+  static_assert(offsetof(AxisPoint, radius) == sizeof(Vec3f));
+  store(place, &point.position.x);
+  point.node = static_cast<std::uint32_t>(node);
 }
 
 /// Writes the points of all internodes, and counts those of `places` from the first of all axes. `first` has
@@ -86,21 +90,29 @@ Extremes lay_points(const Skeleton& skeleton, const BulkVector<std::uint32_t>& f
   Extremes all;
   const std::size_t roots = skeleton.root_count();
   for (std::size_t root = 0; root < roots; ++root) {
-    all.include(skeleton.position[root], skeleton.diameter[root]);
+    all.include(place_of(skeleton, root));
     if (places.axis[root] != kNoParent) places.point[root] = first[places.axis[root]];
   }
   std::mutex of_all;
   parallel_for(skeleton.internode_count(), kGrain, [&](std::size_t begin, std::size_t end) {
     Extremes here;
     for (std::size_t node = roots + begin; node < roots + end; ++node) {
-      here.include(skeleton.position[node], skeleton.diameter[node]);
+      const Lanes place = place_of(skeleton, node);
+      here.include(place);
       places.point[node] += first[places.axis[node]];
-      points[places.point[node]] = point_at(skeleton, node);
+      set_point(place, node, points[places.point[node]]);
     }
     const std::lock_guard lock(of_all);
     all.include(here);
   });
   return all;
+}
+
+float highest_root(const Skeleton& skeleton) {
+  float highest = -std::numeric_limits<float>::infinity();
+  for (std::size_t root = 0; root < skeleton.root_count(); ++root)
+    highest = std::max(highest, static_cast<float>(skeleton.position[root].y));
+  return highest;
 }
 
 }  // namespace
@@ -118,15 +130,17 @@ Axes find_axes(const Skeleton& skeleton) {
   }
   axes.points.resize(count);
   const Extremes extremes = lay_points(skeleton, first, places, axes.points);
-  const Vec3& farthest = extremes.coordinate;
-  axes.thinnest = static_cast<float>(thinnest_radius(std::max({farthest.x, farthest.y, farthest.z})));
+  const Lanes& greatest = extremes.magnitude;
+  axes.thinnest = static_cast<float>(thinnest_radius(std::max({greatest[0], greatest[1], greatest[2]})));
   const auto widened = [&](AxisPoint point) {
     point.radius = std::max(point.radius, axes.thinnest);
     return point;
   };
-  axes.thickest = std::max(0.5f * static_cast<float>(extremes.greatest), axes.thinnest);
-  if (0.5f * static_cast<float>(extremes.least) < axes.thinnest)
-    std::ranges::transform(axes.points, axes.points.begin(), widened);
+  axes.thickest = std::max(greatest[3], axes.thinnest);
+  if (extremes.least[3] < axes.thinnest) std::ranges::transform(axes.points, axes.points.begin(), widened);
+  axes.highest_ground = highest_root(skeleton);
+  const std::size_t roots = skeleton.root_count();
+  axes.marks.resize(count + kMarksBehind);
   parallel_for(axes.list.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t node = places.base[i];
@@ -138,10 +152,17 @@ Axes find_axes(const Skeleton& skeleton) {
       axis.base = is_trunk ? first[i] : places.point[node];
       axis.bearer = is_trunk ? kNoParent : bearer;
       AxisPoint& base = axes.points[axis.first];
-      base = skeleton.is_root(node) ? widened(point_at(skeleton, node)) : axes.points[axis.base];
+      if (node < roots) {
+        set_point(place_of(skeleton, node), node, base);
+        base.radius = std::max(base.radius, axes.thinnest);
+      } else {
+        base = axes.points[axis.base];
+      }
       axis.bearer_radius = base.radius;
-      if (!is_trunk) base.radius = axes.points[axis.first + 1].radius;
+      axis.radius = axes.points[axis.first + 1].radius;
+      if (!is_trunk) base.radius = axis.radius;
     }
+    mark_points(axes, begin, end);
   });
   return axes;
 }

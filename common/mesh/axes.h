@@ -26,6 +26,7 @@ struct Axis {
   std::uint32_t base;    // the bearer's point that the axis grows from; of a trunk its own first one
   std::uint32_t bearer;  // the axis that this one grows from; of a trunk kNoParent
   float bearer_radius;   // at the base; of a trunk its own
+  float radius;          // at its first node
 
   bool is_trunk() const { return bearer == kNoParent; }
   std::uint32_t end() const { return first + count; }
@@ -34,9 +35,11 @@ struct Axis {
 struct Axes {
   BulkVector<Axis> list;  // by their first nodes: only a trunk may come after what grows beside it
   BulkVector<AxisPoint> points;
+  BulkVector<std::uint8_t> marks;       // PointMark bits of each point, and kMarksBehind more
   std::vector<std::uint32_t> at_roots;  // the axes that grow from root nodes: trunks and real roots
   float thinnest = 0.0f;                // radius, metres: no point has less
   float thickest = 0.0f;                // radius of any node, metres
+  float highest_ground = 0.0f;          // of the trees' roots, metres
 };
 
 /// All axes of a sound skeleton. O(n).

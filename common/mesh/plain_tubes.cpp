@@ -1,12 +1,11 @@
 #include "common/mesh/plain_tubes.h"
 
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
 
-#include "common/base/lanes.h"
+#include "common/base/lanes3.h"
 #include "common/mesh/wood.h"
 
 namespace ramify {
@@ -15,43 +14,7 @@ namespace {
 constexpr std::uint32_t kSides = 3;
 constexpr std::uint32_t kRing = kSides + 1;  // vertices: the first stands there once more, with another u
 
-// A lane is a tube; all that follows is in the same terms as Vec3f and as Frame in smooth.cpp.
-
-Lanes root(Lanes x) {
-  for (std::size_t i = 0; i < kLanes; ++i) x[i] = std::sqrt(x[i]);
-  return x;
-}
-
-struct Lanes3 {
-  Lanes x;
-  Lanes y;
-  Lanes z;
-};
-
-Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Lanes3 operator*(const Lanes3& a, Lanes factor) {
-  return {a.x * factor, a.y * factor, a.z * factor};
-}
-Lanes3 operator/(const Lanes3& a, Lanes divisor) {
-  return {a.x / divisor, a.y / divisor, a.z / divisor};
-}
-Lanes dot(const Lanes3& a, const Lanes3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Lanes3 cross(const Lanes3& a, const Lanes3& b) {
-  return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
-}
-Lanes length(const Lanes3& a) {
-  return root(dot(a, a));
-}
-Lanes3 select(LaneMask condition, const Lanes3& a, const Lanes3& b) {
-  return {condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z};
-}
+// A lane is a tube; all that follows is in the same terms as Frame in smooth.cpp.
 
 /// The points of four axes at the same place of their rows.
 struct Points {

@@ -1,43 +1,33 @@
 #include "common/mesh/sharp_turns.h"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "common/base/parallel.h"
+#include "common/mesh/point_marks.h"
 
 namespace ramify {
 namespace {
 
-// Cosine beyond which a turn is sharp: rings in it would lean too much to both sides, and arcs have seldom
-// room.
-constexpr float kSharp = -0.5f;
-
 constexpr std::size_t kGrain = 4096;
 
-bool is_sharp(const AxisPoint& before, const AxisPoint& at, const AxisPoint& after) {
-  const Vec3f in = at.position - before.position;
-  const Vec3f out = after.position - at.position;
-  const float cosine = glm::dot(in, out);
-  // Few turn by more than a right angle at all.
-  return cosine < 0.0f && cosine * cosine > kSharp * kSharp * glm::dot(in, in) * glm::dot(out, out);
-}
-
-/// The points at which axes turn sharply, in ascending order.
+/// The points at which axes turn sharply, in ascending order. Few do: eight marks are looked at at a time.
 std::vector<std::uint32_t> sharp_points(const Axes& axes) {
-  std::vector<std::vector<std::uint32_t>> found((axes.list.size() + kGrain - 1) / kGrain);
-  parallel_for(found.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t part = begin; part < end; ++part) {
-      const std::size_t last = std::min((part + 1) * kGrain, axes.list.size());
-      for (std::size_t i = part * kGrain; i < last; ++i) {
-        for (std::uint32_t p = axes.list[i].first + 1; p + 1 < axes.list[i].end(); ++p) {
-          if (is_sharp(axes.points[p - 1], axes.points[p], axes.points[p + 1])) found[part].push_back(p);
-        }
-      }
+  constexpr std::uint64_t any = kTurnsBack * std::uint64_t{0x0101010101010101};
+  const auto count = static_cast<std::uint32_t>(axes.points.size());
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t first = 0; first < count; first += sizeof any) {
+    static_assert(sizeof any <= kMarksBehind + 1);
+    std::uint64_t marks;
+    std::memcpy(&marks, &axes.marks[first], sizeof marks);
+    if ((marks & any) == 0) continue;
+    const std::uint32_t end = std::min<std::uint32_t>(first + sizeof any, count);
+    for (std::uint32_t point = first; point < end; ++point) {
+      if ((axes.marks[point] & kTurnsBack) != 0) points.push_back(point);
     }
-  });
-  std::vector<std::uint32_t> result;
-  for (const auto& points : found) result.insert(result.end(), points.begin(), points.end());
-  return result;
+  }
+  return points;
 }
 
 }  // namespace
@@ -72,9 +62,10 @@ void part_sharp_turns(Axes& axes) {
               .count = 0,
               .base = end - 1,
               .bearer = static_cast<std::uint32_t>(list.size() - 1),
-              .bearer_radius = base.radius};
+              .bearer_radius = base.radius,
+              .radius = axes.points[point + 1].radius};
       points.push_back(base);
-      points.back().radius = axes.points[point + 1].radius;
+      points.back().radius = axis.radius;
     }
     axis.count = static_cast<std::uint32_t>(points.size()) - axis.first;
     list.push_back(axis);
@@ -82,6 +73,9 @@ void part_sharp_turns(Axes& axes) {
   for (std::uint32_t& axis : axes.at_roots) axis += turns_before(axes.list[axis].first);
   axes.list = std::move(list);
   axes.points = std::move(points);
+  axes.marks.resize(axes.points.size() + kMarksBehind);
+  parallel_for(axes.list.size(), kGrain,
+               [&](std::size_t begin, std::size_t end) { mark_points(axes, begin, end); });
 }
 
 }  // namespace ramify

@@ -246,12 +246,12 @@ class TubeWriter {
     Vec3f* normals = mesh_.normals.data() + vertex_;
     Vec2f* uvs = mesh_.uvs.data() + vertex_;
     std::uint32_t* internodes = mesh_.internodes.data() + vertex_;
-    for (std::uint32_t i = 0; i < sides; ++i) {
-      positions[i] = center + side_offset * circle[i].x + across_offset * circle[i].y;
-      normals[i] = lean + side_normal * circle[i].x + across_normal * circle[i].y;
+    // The last vertex is the first once more. Made anew: reading the first would wait for it to be written.
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+      const Vec2f& on_circle = circle[i < sides ? i : 0];
+      positions[i] = center + side_offset * on_circle.x + across_offset * on_circle.y;
+      normals[i] = lean + side_normal * on_circle.x + across_normal * on_circle.y;
     }
-    positions[sides] = positions[0];
-    normals[sides] = normals[0];
     for (std::uint32_t i = 0; i <= sides; ++i) {
       uvs[i] = {static_cast<float>(i) * step, v};
       internodes[i] = node;

@@ -1,6 +1,8 @@
 #include "common/mesh/tube_plan.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -10,13 +12,6 @@
 
 namespace ramify {
 namespace {
-
-// Knots nearer than this, in diameters, would make rings that cut into each other where thick wood bends in
-// short internodes; nodes between stay well inside the wood.
-constexpr float kKnotSpacing = 0.75f;
-
-// From ring to ring a line turns by no more: at coarse levels twice that.
-constexpr auto kTurnMax = static_cast<float>(radians(18.0));
 
 // A straightened line looks back at no more knots than these.
 constexpr std::size_t kLookBack = 64;
@@ -31,9 +26,6 @@ constexpr float kFootHeight = 1.0f;
 // of a tree, and a collar takes as long as the rest of a twig.
 constexpr float kLeastCollar = 0.03f;
 
-// In radii of a lateral: its first knot is so far outside its parent, so that its collar has room.
-constexpr float kClear = 1.2f;
-
 // A collar knows so many of its parent's knots on either side.
 constexpr int kKnotsAside = 4;
 
@@ -46,9 +38,9 @@ std::uint8_t collar_stretches(std::uint32_t sides) {
   return static_cast<std::uint8_t>(sides <= 3 ? 1 : sides <= 5 ? 2 : sides <= 8 ? 3 : 5);
 }
 
-/// Trunks that stand on the ground with a foot of their own: those without real roots.
-void find_flares(TubePlan& plan, const Skeleton& skeleton) {
-  if (plan.flare <= 0.0) return;
+/// Trunks that stand on the ground with a foot of their own: those without real roots. In ascending order.
+std::vector<std::uint32_t> flared_trunks(const TubePlan& plan, const Skeleton& skeleton) {
+  if (plan.flare <= 0.0) return {};
   const Axes& axes = *plan.axes;
   const auto first_node = [&](const Axis& axis) { return axes.points[axis.first + 1].node; };
   const auto base_node = [&](const Axis& axis) { return axes.points[axis.first].node; };
@@ -57,13 +49,16 @@ void find_flares(TubePlan& plan, const Skeleton& skeleton) {
     const Axis& axis = axes.list[i];
     if (skeleton.kind[first_node(axis)] == Kind::root) has_roots[base_node(axis)] = true;
   }
+  std::vector<std::uint32_t> flared;
   for (const std::uint32_t i : axes.at_roots) {
     const Axis& axis = axes.list[i];
     if (!axis.is_trunk()) continue;
     const std::uint32_t base = base_node(axis);
-    plan.tubes[i].has_flare = skeleton.axis[first_node(axis)] == skeleton.axis[base] && !has_roots[base] &&
-                              plan.flare * axes.points[axis.first].radius > plan.tolerance;
+    if (skeleton.axis[first_node(axis)] == skeleton.axis[base] && !has_roots[base] &&
+        plan.flare * axes.points[axis.first].radius > plan.tolerance)
+      flared.push_back(i);
   }
+  return flared;
 }
 
 /// Whether all knots after `from` are within `tolerance` of the straight stretch from it to `to`.
@@ -127,10 +122,12 @@ std::size_t triangle_count(const Tube& tube) {
 
 class Planner {
  public:
-  Planner(TubePlan& plan, const MesherOptions& options)
+  /// `flared` trunks have a foot.
+  Planner(TubePlan& plan, const MesherOptions& options, const std::vector<std::uint32_t>& flared)
       : plan_(plan),
         axes_(*plan.axes),
         options_(options),
+        flared_(flared),
         tolerance_(static_cast<float>(plan.tolerance)),
         turn_max_(plan.tolerance > 0.0 ? 2.0f * kTurnMax : kTurnMax),
         twig_(radius_of_sides(options.sides_min + 0.499)),
@@ -138,13 +135,67 @@ class Planner {
 
   /// Chooses a tube's points, sides and rings.
   void plan(std::size_t index) {
-    Tube& tube = plan_.tubes[index];
     const Axis& axis = axes_.list[index];
+    Tube& tube = plan_.tubes[index];
+    tube = {};
+    const std::uint16_t sides = sides_of(axis);
+    tube.sides = sides;
     tube.is_closed = axis.is_trunk();
-    tube.sides = sides(axis);
+    if (is_even(axis)) {
+      // Nothing is read here that has just been written in parts: that would be waited for.
+      const bool has_collar = axis.radius > seen_;
+      const std::uint8_t collar = has_collar ? collar_stretches(sides) : 0;
+      tube.collar = collar;
+      tube.rings = axis.count + collar + (sides > 3 ? 1 : 0);
+      tube.is_plain = sides == 3 && !has_collar;
+    } else {
+      std::fill_n(&plan_.rings[axis.first + 1], axis.count - 1, 0);
+      tube.has_flare = tube.is_closed && std::ranges::binary_search(flared_, index);
+      choose_rings(axis, tube);
+    }
+    // As yet as many as there are: where they begin is known when all tubes are planned.
+    tube.first_vertex = tube.rings == 0 ? 0 : vertex_count(tube);
+    tube.first_triangle = tube.rings == 0 ? 0 : triangle_count(tube);
+  }
+
+  void leave_out(std::size_t index) {
+    std::fill_n(&plan_.rings[axes_.list[index].first + 1], axes_.list[index].count - 1, 0);
+    plan_.tubes[index] = {};
+  }
+
+ private:
+  /// Whether all points of a lateral are knots with a ring each, by their marks. Nearly all laterals are
+  /// even.
+  bool is_even(const Axis& axis) {
+    if (tolerance_ > 0.0f || plan_.line != CentreLine::polyline || axis.is_trunk()) return false;
+    if (!has_marks_only(axis, kIsNear)) return false;
+    if ((axes_.marks[axis.first + 1] & kIsNear) == 0) return true;
+    knots_.clear();
+    append_knot(knots_, axes_, axis.first);
+    append_knot(knots_, axes_, axis.first + 1);
+    return !is_buried(axis, knots_[1]);
+  }
+
+  /// Whether no point of an axis has another mark. Most axes have few points: these go without a loop, whose
+  /// end would not be foreseen.
+  bool has_marks_only(const Axis& axis, PointMark mark) const {
+    static_assert(std::endian::native == std::endian::little);
+    const std::uint8_t* marks = &axes_.marks[axis.first];
+    std::uint64_t others;
+    constexpr std::uint32_t at_once = sizeof others;
+    static_assert(at_once <= kMarksBehind + 1);
+    std::memcpy(&others, marks, at_once);
+    others &= ~(std::uint64_t{mark} * 0x0101010101010101);
+    if (axis.count < at_once) others &= (std::uint64_t{1} << 8 * axis.count) - 1;
+    return others == 0 && std::all_of(marks + std::min(axis.count, at_once), marks + axis.count,
+                                      [&](std::uint8_t other) { return (other & ~mark) == 0; });
+  }
+
+  /// The long way: point by point.
+  void choose_rings(const Axis& axis, Tube& tube) {
     choose_knots(axis);
     if (knots_.back().length <= axes_.thinnest && knots_.size() == 2) return;  // a point
-    const float radius = axes_.points[axis.first + 1].radius;
+    const float radius = axis.radius;
     if (!tube.is_closed && radius > seen_ && knots_[1].length > axis.bearer_radius + 0.5f * radius) {
       tube.collar = collar_stretches(tube.sides);
       knots_[1].room *= kRoomBesideCollar;
@@ -166,25 +217,21 @@ class Planner {
     tube.rings = static_cast<std::uint32_t>(rings) + tube.collar + (tube.has_round_tip() ? 1 : 0) -
                  (tube.is_pointed ? 1 : 0);
     tube.is_low = std::any_of(knots_.begin(), knots_.end(), [&](const Knot& knot) {
-      return knot.position.y - kTipLength * knot.radius < plan_.highest_ground;
+      return knot.position.y - kTipLength * knot.radius < axes_.highest_ground;
     });
     tube.is_plain = !tube.is_low && plan_.line == CentreLine::polyline && tube.sides == 3 &&
                     tube.collar == 0 && !tube.is_closed && !tube.is_pointed && knots_.size() == axis.count &&
                     rings == axis.count;
-    // As yet as many as there are: where they begin is known when all tubes are planned.
-    tube.first_vertex = vertex_count(tube);
-    tube.first_triangle = triangle_count(tube);
   }
 
- private:
   /// Where side_count() has so many sides before it rounds them.
   float radius_of_sides(double sides) const {
     const double share = sides / options_.sides_max;
     return static_cast<float>(share * share * double{axes_.thickest});
   }
 
-  std::uint16_t sides(const Axis& axis) const {
-    const float radius = axes_.points[axis.first + 1].radius;
+  std::uint16_t sides_of(const Axis& axis) const {
+    const float radius = axis.radius;
     const std::uint32_t wanted = radius < twig_ ? static_cast<std::uint32_t>(options_.sides_min)
                                                 : side_count(radius, axes_.thickest, options_);
     return static_cast<std::uint16_t>(sides_within(wanted, radius, plan_.tolerance));
@@ -198,7 +245,7 @@ class Planner {
       const Knot& knot = knots_.back();
       const bool is_tip = i + 1 == axis.end();
       const bool is_first = knots_.size() == 2;
-      const bool is_crowded = knot.length < std::max(2.0f * kKnotSpacing * knot.radius, axes_.thinnest);
+      const bool is_crowded = knot.length < std::max(2.0f * kLeastSpacing * knot.radius, axes_.thinnest);
       if (is_tip) {
         if (is_crowded && !is_first) drop_last_but_one();
       } else if (is_crowded || (is_first && !axis.is_trunk() && is_buried(axis, knot))) {
@@ -220,7 +267,7 @@ class Planner {
   bool is_buried(const Axis& axis, const Knot& knot) const {
     const float edge = axis.bearer_radius + kClear * knot.radius;
     if (knot.length < edge) return true;
-    if (knot.length > 3.0f * axis.bearer_radius) return false;
+    if (knot.length > kNear * axis.bearer_radius) return false;
     // Along the bearer after the base, or before it where it ends.
     const Axis& bearer = axes_.list[axis.bearer];
     const bool ends = axis.base + 1 == bearer.end();
@@ -244,6 +291,7 @@ class Planner {
   TubePlan& plan_;
   const Axes& axes_;
   const MesherOptions& options_;
+  const std::vector<std::uint32_t>& flared_;
   const float tolerance_;
   const float turn_max_;
   const float twig_;         // thinner wood, most of a tree, has the fewest sides
@@ -262,16 +310,18 @@ TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOpti
   plan.flare = options.root_flare;
   plan.tolerance = tolerance;
   plan.tubes.resize(axes.list.size());
-  plan.rings.assign(axes.points.size(), 0);
-  plan.highest_ground = -std::numeric_limits<float>::infinity();
-  for (std::size_t root = 0; root < skeleton.root_count(); ++root)
-    plan.highest_ground = std::max(plan.highest_ground, static_cast<float>(skeleton.position[root].y));
-  find_flares(plan, skeleton);
+  plan.rings.assign(axes.points.size(), 1);
+  const std::vector<std::uint32_t> flared = flared_trunks(plan, skeleton);
+  const bool keeps_all = tolerance <= 0.0;
   const std::vector<bool> is_kept = kept_axes(skeleton, tolerance);
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Planner planner(plan, options);
+    Planner planner(plan, options, flared);
     for (std::size_t i = begin; i < end; ++i) {
-      if (is_kept[axes.points[axes.list[i].first + 1].node]) planner.plan(i);
+      if (keeps_all || is_kept[axes.points[axes.list[i].first + 1].node]) {
+        planner.plan(i);
+      } else {
+        planner.leave_out(i);
+      }
     }
   });
   for (Tube& tube : plan.tubes) {

@@ -10,6 +10,7 @@
 #include "common/mesh/centre_line.h"
 #include "common/mesh/collar.h"
 #include "common/mesh/mesher.h"
+#include "common/mesh/point_marks.h"
 #include "common/mesh/root_flare.h"
 #include "common/skeleton/skeleton.h"
 
@@ -18,38 +19,34 @@ namespace ramify {
 // The part of a lateral's first stretch that its first bend may count on: the collar takes the rest.
 constexpr float kRoomBesideCollar = 0.5f;
 
-// How far a tip, round or a cone, reaches beyond its last node, in radii.
-constexpr float kTipLength = 1.0f;
-
 // Cosine beyond which a line turns back on itself, and frames are carried on as they are.
 constexpr float kHalfTurn = -0.9999f;
 
-/// The tube of an axis.
+/// The tube of an axis. Like Axis without defaults: plan_tubes() writes all of them, and only once.
 struct Tube {
-  std::uint32_t rings = 0;  // of vertices, the collar's among them; without rings it is left out
-  std::uint16_t sides = 0;
-  std::uint8_t collar = 0;       // stretches that the collar's curve is parted into; 0: no collar
-  std::uint8_t flare_rings = 0;  // of twice as many sides
-  bool is_closed = false;        // a trunk: its base is seen
-  bool has_flare = false;
-  bool is_pointed = false;  // ends in a point at its last node; else in a tip beyond it
-  std::size_t first_vertex = 0;
-  std::size_t first_triangle = 0;
-
-  bool is_plain = false;  // see PlainTubeWriter
-  bool is_low = false;    // reaches down to the ground
+  std::uint32_t rings;  // of vertices, the collar's among them; without rings it is left out
+  std::uint16_t sides;
+  std::uint8_t collar;       // stretches that the collar's curve is parted into; 0: no collar
+  std::uint8_t flare_rings;  // of twice as many sides
+  bool is_closed;            // a trunk: its base is seen
+  bool has_flare;
+  bool is_pointed;  // ends in a point at its last node; else in a tip beyond it
+  bool is_plain;    // see PlainTubeWriter
+  bool is_low;      // reaches down to the ground
+  std::size_t first_vertex;
+  std::size_t first_triangle;
 
   bool has_round_tip() const { return !is_pointed && sides > 3; }
+  friend bool operator==(const Tube&, const Tube&) = default;
 };
 
 struct TubePlan {
   const Axes* axes = nullptr;
   CentreLine line = CentreLine::polyline;
   double flare = 0.0;
-  float highest_ground = 0.0f;     // of the trees' roots, metres
   double tolerance = 0.0;          // metres
-  BulkVector<std::uint8_t> rings;  // of each point on its axis' line; 0: left out
-  std::vector<Tube> tubes;         // of each axis
+  BulkVector<std::uint8_t> rings;  // of each point on its axis' line; 0: left out, but for its first
+  BulkVector<Tube> tubes;          // of each axis
   std::size_t vertex_count = 0;
   std::size_t triangle_count = 0;
 };

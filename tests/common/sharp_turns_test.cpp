@@ -1,5 +1,6 @@
 #include "common/mesh/sharp_turns.h"
 
+#include "common/mesh/point_marks.h"
 #include "tests/catch.h"
 #include "tests/common/trees.h"
 
@@ -81,6 +82,7 @@ TEST_CASE("sharp turns: parted axes of random trees hold each internode once and
       CHECK(axis.base < axes.list[axis.bearer].end());
     }
     CHECK(next == axes.points.size());
+    for (std::uint32_t point = 0; point < next; ++point) CHECK((axes.marks[point] & kTurnsBack) == 0);
     for (const std::uint32_t i : axes.at_roots) CHECK(s.is_root(axes.points[axes.list[i].first].node));
     for (std::size_t node = 0; node < s.node_count(); ++node) CHECK(found[node] == (s.is_root(node) ? 0 : 1));
   }
