@@ -140,7 +140,7 @@ Axes find_axes(const Skeleton& skeleton) {
   if (extremes.least[3] < axes.thinnest) std::ranges::transform(axes.points, axes.points.begin(), widened);
   axes.highest_ground = highest_root(skeleton);
   const std::size_t roots = skeleton.root_count();
-  axes.marks.resize(count + kMarksBehind);
+  resize_marks(axes);
   parallel_for(axes.list.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t node = places.base[i];

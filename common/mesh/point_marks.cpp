@@ -100,6 +100,11 @@ bool is_near(const Axis& axis, const Vec3f& base, const Vec3f& first) {
 
 }  // namespace
 
+void resize_marks(Axes& axes) {
+  axes.marks.resize(axes.points.size() + kMarksBehind);
+  std::fill_n(axes.marks.end() - kMarksBehind, kMarksBehind, std::uint8_t{0});
+}
+
 void mark_points(Axes& axes, std::size_t begin, std::size_t end) {
   if (begin == end) return;
   const std::uint32_t first = axes.list[begin].first;

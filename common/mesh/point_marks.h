@@ -44,6 +44,9 @@ enum PointMark : std::uint8_t {
 // So many marks can be read behind that of the last point.
 constexpr std::size_t kMarksBehind = 7;
 
+/// Makes room for the marks of all points; those behind the last are none.
+void resize_marks(Axes& axes);
+
 /// Marks the points of axes.list[begin], ..., axes.list[end - 1]. O(points).
 void mark_points(Axes& axes, std::size_t begin, std::size_t end);
 

@@ -73,7 +73,7 @@ void part_sharp_turns(Axes& axes) {
   for (std::uint32_t& axis : axes.at_roots) axis += turns_before(axes.list[axis].first);
   axes.list = std::move(list);
   axes.points = std::move(points);
-  axes.marks.resize(axes.points.size() + kMarksBehind);
+  resize_marks(axes);
   parallel_for(axes.list.size(), kGrain,
                [&](std::size_t begin, std::size_t end) { mark_points(axes, begin, end); });
 }
