@@ -5,6 +5,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "cli/experiment/run_folder.h"
 #include "cli/experiment/sweep_plan.h"
 #include "common/base/errors.h"
@@ -25,9 +27,22 @@ void make_folder(const fs::path& folder) {
   if (error) throw cannot_write(folder, error.message());
 }
 
+/// Whether there is nothing in it, or no more than a sweep leaves that is killed before it has written its
+/// plan.
+bool is_as_new(const fs::path& folder) {
+  std::error_code error;
+  const auto is_of_new = [&](const fs::path& path) {
+    const std::string name = path.filename().string();
+    const bool is_half_plan = name.starts_with("." + std::string(kPlanFile) + ".") && name.ends_with(".tmp");
+    return is_half_plan || (name == "runs" && fs::is_directory(path, error) && fs::is_empty(path, error));
+  };
+  const fs::directory_iterator entries(folder, error);
+  return !error && std::all_of(begin(entries), end(entries), is_of_new);
+}
+
 bool is_of_sweep(const fs::path& folder) {
   std::error_code error;
-  if (fs::is_empty(folder, error)) return true;
+  if (is_as_new(folder)) return true;
   return fs::is_regular_file(folder / kPlanFile, error) && is_plan(read_file(folder / kPlanFile));
 }
 

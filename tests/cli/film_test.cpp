@@ -182,9 +182,9 @@ TEST_CASE("film: what has no film is one line and leaves nothing") {
       {"s4-fig6 -o p.png --turntable 4", "--turntable, --turn, --fps: go with --frames DIR"},
       {"s4-fig6 -o p.png --turn 90", "--turntable, --turn, --fps: go with --frames DIR"},
       {"s4-fig6 -o p.png --fps 9", "--turntable, --turn, --fps: go with --frames DIR"},
-      {"s4-fig6 --frames out --turntable 1", "--turntable: Value 1 not in range 2 to 9999"},
-      {"s4-fig6 --frames out --turn round", "--turn: Value round not in range -3600.000000 to 3600.000000"},
-      {"s4-fig6 --frames out --fps 0", "--fps: Value 0 not in range 1 to 120"},
+      {"s4-fig6 --frames out --turntable 1", "--turntable: Value 1 not in range "},
+      {"s4-fig6 --frames out --turn round", "--turn: Value round not in range "},
+      {"s4-fig6 --frames out --fps 0", "--fps: Value 0 not in range "},
       {"xm12-fig5 --frames out --turntable 4 --at-step 1", "--at-step: xm12-fig5 has no steps"},
   };
   for (const auto& [arguments, message] : cases) {

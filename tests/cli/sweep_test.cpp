@@ -611,6 +611,21 @@ TEST_CASE("sweep: what is wrong is one line, before anything is made") {
   CHECK(read_file(folder.file("mine/file")) == "mine");
 }
 
+TEST_CASE("sweep: killed before its plan was written, it can be begun again") {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  fs::create_directories(out / "runs");
+  std::ofstream(out / ".sweep.json.17.tmp") << "{";
+  const std::string command = "s4-fig6 --vary seed=1 --steps 2 -o out --quiet";
+  std::ofstream(out / "runs/mine") << "mine";
+  check_failure(sweep(command, folder), 2,
+                "out: is there already and no folder of `ramify sweep` (name another folder)\n");
+  fs::remove(out / "runs/mine");
+  CHECK(sweep(command, folder).code == 0);
+  CHECK(fs::exists(out / "results.csv"));
+  CHECK_FALSE(fs::exists(out / ".sweep.json.17.tmp"));
+}
+
 TEST_CASE("sweep: help has examples that can be typed") {
   const Folder folder;
   const std::string help = run_program("sweep --help").out;
