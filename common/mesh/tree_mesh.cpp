@@ -31,7 +31,8 @@ bool has_fork_bark(const MesherOptions& options) {
 TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint64_t seed, Mesh memory) {
   TreeMesh tree;
   tree.mesh = build_mesh(skeleton, looks.mesher, std::move(memory));
-  const bool has_bark = looks.mesher.color_by.empty();  // else colours are to be read, and bark would change them
+  const bool has_bark =
+      looks.mesher.color_by.empty();  // else colours are to be read, and bark would change them
   if (has_bark) {
     dress_in_bark(tree.mesh, skeleton, looks.bark);
     compute_tangents(tree.mesh);

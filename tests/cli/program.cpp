@@ -41,4 +41,13 @@ void check_failure(const Outcome& outcome, int code, const std::string& message)
   CHECK(outcome.out.empty());
 }
 
+void check_out_of_range(const Outcome& outcome, const std::string& option, const std::string& value,
+                        const std::string& low, const std::string& high) {
+  const std::string start = option + ": Value " + value + " not in range ";
+  check_failure(outcome, 2, start);
+  const std::string limits = outcome.err.substr(std::min(start.size(), outcome.err.size()));
+  CHECK(limits.find(low) < limits.find(high));
+  CHECK(limits.find(high) != std::string::npos);
+}
+
 }  // namespace ramify::test

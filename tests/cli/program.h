@@ -25,4 +25,8 @@ std::string program_path();
 /// Any command, by bash.
 Outcome run_shell(const std::string& command, const std::string& folder = ".");
 
+/// The same for a value that an option does not allow, which names both limits, by whatever words CLI11 has.
+void check_out_of_range(const Outcome& outcome, const std::string& option, const std::string& value,
+                        const std::string& low, const std::string& high);
+
 }  // namespace ramify::test

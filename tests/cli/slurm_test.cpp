@@ -224,7 +224,8 @@ TEST_CASE("slurm: what it cannot do is one line") {
   refused(kSweep + " -o out --sbatch-options=-v", "--sbatch-options: goes with --slurm\n");
   refused(kSweep + " -o out --collect --tasks 3", "--tasks: goes with --slurm\n");
   refused(kSweep + " -o out --slurm --collect", "--slurm, --collect: one of them");
-  refused(kSweep + " -o out --slurm --tasks 0", "--tasks: Value 0 not in range ");
+  check_out_of_range(cluster.sweep(kSweep + " -o out --slurm --tasks 0"), "--tasks", "0", "1", "10000");
+  CHECK_FALSE(fs::exists(cluster.path("out")));
   refused(kSweep + " -o out --slurm --sbatch-options 'a\nb'", "--sbatch-options: is more than a line\n");
   refused("-o out --slurm", "config is required\n");
   refused("s4-fig6 -o out --slurm", "--vary is required\n");
