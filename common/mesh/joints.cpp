@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include "common/mesh/tube_plan.h"
+
 namespace ramify {
 namespace {
-
-// Of the thickest wood: thinner laterals have no collar, and nobody looks at their bark.
-constexpr double kLeastSeen = 0.03;
 
 // In radii of both, by the sine of the angle between them: twice as far as their surfaces meet.
 constexpr float kReach = 2.0f;
@@ -30,7 +29,7 @@ class JointFinder {
       if (skeleton_.axis[parent] == skeleton_.axis[node]) {
         first_[node] = first_[parent];
         next_[parent] = node;
-      } else if (skeleton_.diameter[node] >= kLeastSeen * thickest) {
+      } else if (skeleton_.diameter[node] >= kLeastCollar * thickest) {
         add_lateral(node);
       }
     }

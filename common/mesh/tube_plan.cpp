@@ -22,10 +22,6 @@ constexpr float kLeastUpright = 0.5f;
 // In radii: so far up a foot without a flare turns from the ground's direction to its trunk's.
 constexpr float kFootHeight = 1.0f;
 
-// Of the thickest wood: thinner twigs, which have three sides, just begin inside their parents. They are most
-// of a tree, and a collar takes as long as the rest of a twig.
-constexpr float kLeastCollar = 0.03f;
-
 // A collar knows so many of its parent's knots on either side.
 constexpr int kKnotsAside = 4;
 

@@ -19,6 +19,10 @@ namespace ramify {
 // The part of a lateral's first stretch that its first bend may count on: the collar takes the rest.
 constexpr float kRoomBesideCollar = 0.5f;
 
+// Of the thickest wood: thinner twigs, which have three sides, just begin inside their parents. They are most
+// of a tree, and a collar takes as long as the rest of a twig.
+constexpr float kLeastCollar = 0.03f;
+
 // Cosine beyond which a line turns back on itself, and frames are carried on as they are.
 constexpr float kHalfTurn = -0.9999f;
 
