@@ -74,6 +74,12 @@ struct Cone {
   Vec3 direction;  // unit
 };
 
+/// What is known of four markers at a glance.
+struct Glance {
+  Lanes square;      // of the distance; nearer than it is by no more than what floats round off
+  LaneMask is_seen;  // true for a few more than are
+};
+
 /// The same for four markers at a time, wider by what floats round off.
 struct ConeView {
   explicit ConeView(const Cone& cone) : apex(cone.apex), direction(cone.direction) {
@@ -82,24 +88,27 @@ struct ConeView {
     const double slack = 0x1p-21 * std::max({far.x, far.y, far.z});
     const double wide_radius = cone.shape.radius + slack;
     square_radius = static_cast<float>(wide_radius * wide_radius * (1.0 + 1e-5));
+    margin = static_cast<float>(wide_radius * wide_radius - cone.shape.radius * cone.shape.radius) +
+             1e-5F * square_radius;
     lead = static_cast<float>(2.0 * slack);
     cosine_square = static_cast<float>(cone.shape.cosine_square - 1e-5);
   }
 
-  /// Which of four markers are seen.
-  LaneMask look(const float* x, const float* y, const float* z) const {
+  Glance look(const float* x, const float* y, const float* z) const {
     const Lanes dx = load_lanes(x) - apex.x;
     const Lanes dy = load_lanes(y) - apex.y;
     const Lanes dz = load_lanes(z) - apex.z;
     const Lanes square = dx * dx + dy * dy + dz * dz;
     const Lanes along = dx * direction.x + dy * direction.y + dz * direction.z + lead;
-    return (square <= square_radius) & (along * magnitude(along) >= cosine_square * square);
+    return {square - margin,
+            (square <= square_radius) & (along * magnitude(along) >= cosine_square * square)};
   }
 
   Vec3f apex;
   Vec3f direction;
   float square_radius;
-  float lead;  // added to what is along the direction
+  float margin;  // the most that a square within the reach is off
+  float lead;    // added to what is along the direction
   float cosine_square;
 };
 

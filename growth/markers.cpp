@@ -57,21 +57,38 @@ bool outbid(std::uint64_t& best, std::uint64_t bid) {
   return false;
 }
 
-/// A random place in the solid, from the low corner of its box; rounded to floats, and inside as it stands.
-Vec3f draw_offset(const Solid& solid, const Box& box, std::uint64_t seed, std::uint64_t number) {
-  Rng random = Rng::stream(seed, Stream::marker, number);
+/// Random places in the solid for the markers from number `first` on, from the low corner of its box; rounded
+/// to floats, and inside as they stand. Each marker has its own random numbers. All draw once, then those
+/// that fell outside again, picked without a branch: which they are cannot be foreseen.
+void draw_offsets(const Solid& solid, const Box& box, std::uint64_t seed, std::size_t first,
+                  std::span<Vec3f> offsets) {
+  struct Drawer {
+    std::size_t marker;  // among these
+    Rng random;
+  };
   const Vec3 size = box.size();
-  for (int draw = 0; draw < kDrawsMax; ++draw) {
-    const double x = random.uniform();
-    const double y = random.uniform();
-    const double z = random.uniform();
-    const Vec3f offset(size * Vec3(x, y, z));
-    if (solid.contains(box.low + Vec3(offset))) return offset;
+  std::vector<Drawer> drawers;
+  drawers.reserve(offsets.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i)
+    drawers.push_back({i, Rng::stream(seed, Stream::marker, first + i)});
+  for (int draw = 0; draw < kDrawsMax && !drawers.empty(); ++draw) {
+    std::size_t outside = 0;
+    for (Drawer drawer : drawers) {
+      const double x = drawer.random.uniform();
+      const double y = drawer.random.uniform();
+      const double z = drawer.random.uniform();
+      const Vec3f offset(size * Vec3(x, y, z));
+      offsets[drawer.marker] = offset;
+      drawers[outside] = drawer;
+      outside += !solid.contains(box.low + Vec3(offset));
+    }
+    drawers.erase(drawers.begin() + static_cast<std::ptrdiff_t>(outside), drawers.end());
   }
+  if (drawers.empty()) return;
   throw RunError(
       fmt::format("marker {}: none of {} points in the volume's box is inside it (a volume that "
                   "fills more of its box)",
-                  number, kDrawsMax));
+                  first + drawers.front().marker, kDrawsMax));
 }
 
 Box box_of(const Solid& solid) {
@@ -86,11 +103,9 @@ MarkerGrid scattered(const Solid& solid, double volume, double density, std::uin
                                wanted, kMarkersMax));
   }
   const Box box = box_of(solid);
-  return MarkerGrid(box, reach, static_cast<std::size_t>(std::max(0.0, wanted)),
-                    [&](std::size_t first, std::span<Vec3f> offsets) {
-                      for (std::size_t i = 0; i < offsets.size(); ++i)
-                        offsets[i] = draw_offset(solid, box, seed, first + i);
-                    });
+  return MarkerGrid(
+      box, reach, static_cast<std::size_t>(std::max(0.0, wanted)),
+      [&](std::size_t first, std::span<Vec3f> offsets) { draw_offsets(solid, box, seed, first, offsets); });
 }
 
 }  // namespace
@@ -131,9 +146,9 @@ void Markers::claim(std::span<const Seeker> seekers, std::vector<Claim>& claims)
         if (!shape.is_of(seeker.radius, seeker.min_cosine))
           shape = ConeShape(seeker.radius, seeker.min_cosine);
         const Cone cone{shape, seeker.position - grid_.box().low, seeker.direction};
-        const std::span<const std::uint32_t> candidates = look_over(cone, search);
-        saw_[i] = !candidates.empty();
-        win_count_[i] = contend(cone, order_[i], candidates, won_[group]);
+        const Sight sight = look_over(cone, search);
+        saw_[i] = sight.is_any;
+        win_count_[i] = contend(cone, order_[i], sight.candidates, won_[group]);
       }
     }
   });
@@ -179,8 +194,8 @@ void Markers::sort_into_bricks(std::span<const Seeker> seekers) {
     order_[--brick_end_[brick_[i]]] = static_cast<std::uint32_t>(i);
 }
 
-/// The markers that are seen, and perhaps a few more; valid until the next search.
-std::span<const std::uint32_t> Markers::look_over(const Cone& cone, MarkerGrid::Search& search) const {
+/// Leaves out what has a better bid already; valid until the next search.
+Markers::Sight Markers::look_over(const Cone& cone, MarkerGrid::Search& search) {
   const std::span<const std::uint32_t> groups = grid_.find(cone.lens(), search);
   const std::size_t most = kLanes * (groups.size() + 1);
   if (search.places.size() < most) search.places.resize(2 * most);
@@ -188,17 +203,32 @@ std::span<const std::uint32_t> Markers::look_over(const Cone& cone, MarkerGrid::
   const float* const x = grid_.x();
   const float* const y = grid_.y();
   const float* const z = grid_.z();
-  std::uint32_t* const seen = search.places.data();
+  std::uint32_t* const candidates = search.places.data();
   std::size_t count = 0;
+  LaneMask is_any{};
   for (const std::uint32_t place : groups) {
     const LaneNumbers places = LaneNumbers{0, 1, 2, 3} + place;
-    count += pack(places, view.look(x + place, y + place, z + place), seen + count);
+    const Glance glance = view.look(x + place, y + place, z + place);
+    is_any |= glance.is_seen;
+    // No bid is no number, which nothing is farther than.
+    const LaneMask is_farther = glance.square > best_squares(place);
+    count += pack(places, glance.is_seen & ~is_farther, candidates + count);
   }
-  return {seen, count};
+  return {sign_bits(is_any) != 0, {candidates, count}};
 }
 
-/// Bids for those that it sees indeed; says how many it won and puts them behind `won`. Most are another's by
-/// then, which cannot be foreseen: so they are sieved without a branch before any is bid for.
+/// The squared distances that the best bids for four successive markers tell.
+Lanes Markers::best_squares(std::uint32_t place) {
+  const auto square = [&](std::uint32_t marker) {
+    const std::atomic_ref<std::uint64_t> best(best_[marker]);
+    return static_cast<std::uint32_t>(best.load(std::memory_order_relaxed) >> 32);
+  };
+  return std::bit_cast<Lanes>(
+      LaneNumbers{square(place), square(place + 1), square(place + 2), square(place + 3)});
+}
+
+/// Bids for those that it sees indeed; says how many it won and puts them behind `won`. Sieved without a
+/// branch before any is bid for: which are another's by then cannot be foreseen.
 std::uint32_t Markers::contend(const Cone& cone, std::uint32_t number,
                                std::span<const std::uint32_t> candidates, std::vector<std::uint32_t>& won) {
   const std::size_t before = won.size();

@@ -64,8 +64,15 @@ class Markers {
   PointLayer layer() const;
 
  private:
+  /// What a seeker sees, and perhaps a little more.
+  struct Sight {
+    bool is_any = false;                          // of all markers
+    std::span<const std::uint32_t> candidates{};  // those that it may win
+  };
+
   void sort_into_bricks(std::span<const Seeker> seekers);
-  std::span<const std::uint32_t> look_over(const Cone& cone, MarkerGrid::Search& search) const;
+  Sight look_over(const Cone& cone, MarkerGrid::Search& search);
+  Lanes best_squares(std::uint32_t place);
   std::uint32_t contend(const Cone& cone, std::uint32_t number, std::span<const std::uint32_t> candidates,
                         std::vector<std::uint32_t>& won);
   Claim collect(const Seeker& seeker, std::uint32_t number, std::span<const std::uint32_t> won);

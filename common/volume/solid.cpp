@@ -30,6 +30,8 @@ Solid::Solid(Solid&&) noexcept = default;
 Solid& Solid::operator=(Solid&&) noexcept = default;
 
 bool Solid::contains(const Vec3& point) const {
+  // Without a branch on what the only part says, which cannot be foreseen where points are drawn.
+  if (parts_.size() == 1) return parts_.front().contains(point);
   return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.contains(point); });
 }
 
