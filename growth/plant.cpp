@@ -1,13 +1,19 @@
 #include "growth/plant.h"
 
+#include <algorithm>
 #include <bit>
+#include <type_traits>
 
 #include "common/base/rng.h"
 
 namespace ramify::growth {
 namespace {
 
-// Which values stay is hard to foretell, so the loops below do not branch on it.
+/// Places from begin to before end that all stay.
+struct Run {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
 
 /// Places numbered anew, without holes. A bit a place and a count for each 64 of them: so small that it stays
 /// in the cache, whichever places are asked for.
@@ -21,9 +27,11 @@ class Numbering {
     for (std::size_t i = 1; i < words_.size(); ++i) {
       words_[i].before = words_[i - 1].before + count_of(words_[i - 1].stays);
     }
+    find_runs();
   }
 
-  bool stays(std::size_t place) const { return (words_[place / kBits].stays >> place % kBits & 1) != 0; }
+  /// Between the holes, in order. Nodes of one branch go together, so most are long: they are moved at once.
+  const std::vector<Run>& runs() const { return runs_; }
 
   /// The new number of a place that stays.
   std::uint32_t operator()(std::uint32_t place) const {
@@ -42,23 +50,46 @@ class Numbering {
     return static_cast<std::uint32_t>(std::popcount(bits));
   }
 
+  void find_runs() {
+    std::uint64_t last = 0;  // whether the place before stays
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      const std::uint64_t stays = words_[i].stays;
+      for (std::uint64_t edges = stays ^ (stays << 1 | last); edges != 0; edges &= edges - 1) {
+        const auto place = static_cast<std::uint32_t>(i * kBits) + std::countr_zero(edges);
+        if (runs_.empty() || runs_.back().end != 0) {
+          runs_.push_back({.begin = place});
+        } else {
+          runs_.back().end = place;
+        }
+      }
+      last = stays >> (kBits - 1);
+    }
+  }
+
   std::vector<Word> words_;
+  std::vector<Run> runs_;
 };
 
-/// Leaves out what stands in the holes and puts `renewed` in place of the others.
-template <class T, class Renewed>
-void close_holes(std::vector<T>& values, const Numbering& numbering, const Renewed& renewed) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[kept] = renewed(values[i]);
-    kept += numbering.stays(i);
-  }
-  values.resize(kept);
-}
-
+/// Leaves out what stands in the holes.
 template <class T>
 void close_holes(std::vector<T>& values, const Numbering& numbering) {
-  close_holes(values, numbering, [](const T& value) { return value; });
+  if (values.empty()) return;
+  auto end = values.begin();
+  for (const Run& run : numbering.runs()) {
+    const auto begin = values.begin() + run.begin;
+    const auto run_end = values.begin() + run.end;
+    end = begin == end ? run_end : std::copy(begin, run_end, end);
+  }
+  values.erase(end, values.end());
+}
+
+/// Likewise, and puts `renewed` in place of the others.
+template <class T, class Renewed>
+void close_holes(std::vector<T>& values, const Numbering& numbering, const Renewed& renewed) {
+  auto end = values.begin();
+  for (const Run& run : numbering.runs())
+    end = std::transform(values.begin() + run.begin, values.begin() + run.end, end, renewed);
+  values.erase(end, values.end());
 }
 
 void close_nodes(Plant& plant) {
@@ -66,10 +97,7 @@ void close_nodes(Plant& plant) {
   const Numbering new_axis(plant.axes.size(),
                            [&](std::size_t i) { return plant.is_cut(plant.axes[i].first); });
   const Numbering new_node(plant.node_count(), [&](std::size_t node) { return plant.is_cut(node); });
-  close_holes(plant.axes, new_axis, [&](Axis axis) {
-    axis.first = new_node(axis.first);
-    return axis;
-  });
+  close_holes(plant.axes, new_axis);
   close_holes(plant.position, new_node);
   close_holes(plant.parent, new_node,
               [&](std::uint32_t parent) { return parent == kNone ? kNone : new_node(parent); });
@@ -78,6 +106,7 @@ void close_nodes(Plant& plant) {
   close_holes(plant.birth_step, new_node);
   close_holes(plant.lost_tips, new_node);
   close_holes(plant.id, new_node);
+  for (Axis& axis : plant.axes) axis.first = new_node(axis.first);
   for (Bud& bud : plant.buds) bud.node = new_node(bud.node);
   plant.cut_nodes = 0;
 }
@@ -87,13 +116,14 @@ void close_buds(Plant& plant) {
   Vec3f* const direction = plant.bud_direction.data();
   const std::uint32_t* const parent = plant.parent.data();
   std::size_t kept = 0;
+  // Which of them stay is hard to foretell, so this does not branch on it.
   for (std::size_t i = 0; i < plant.buds.size(); ++i) {
-    const Bud bud = buds[i];
-    const std::uint32_t node = bud.is_dead() ? 0 : bud.node;
+    const bool is_dead = buds[i].is_dead();
+    const std::uint32_t node = is_dead ? 0 : buds[i].node;
     const bool is_cut = (node != 0) & (parent[node] == kNone);
-    buds[kept] = bud;
+    buds[kept] = buds[i];
     direction[kept] = direction[i];
-    kept += !(bud.is_dead() | is_cut);
+    kept += !(is_dead | is_cut);
   }
   plant.buds.resize(kept);
   plant.bud_direction.resize(kept);

@@ -2,6 +2,7 @@
 
 #include "growth/cutting.h"
 
+#include "common/base/rng.h"
 #include "growth/pruning.h"
 #include "growth/shedding.h"
 #include "growth/simulation.h"
@@ -77,6 +78,52 @@ TEST_CASE("cutting: closing the holes leaves the living as they were") {
   REQUIRE(plant.buds.size() == 1);
   CHECK(plant.buds[0].node == 3);
   CHECK(plant.axes_founded == 2);
+}
+
+TEST_CASE("cutting: whatever is cut, what is left of a large plant stays as it was, in its order") {
+  for (const double share : {0.0, 0.001, 0.02, 0.2, 0.9}) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      CAPTURE(share, seed);
+      Rng random = Rng::stream(seed, Stream::bud, 0);
+      Plant plant = test::seedling();
+      for (std::uint32_t node = 1; node < 200 + 61 * seed; ++node) {
+        const auto parent = static_cast<std::uint32_t>(random.below(node));
+        const bool founds = random.uniform() < 0.3;
+        const std::uint32_t axis = founds ? plant.axes_founded : plant.axis[parent];
+        add_node(plant, parent, axis, Vec3(node));  // where it is tells which it was
+        plant.lost_tips.back() = node;
+        add_bud(plant, {.node = node, .is_terminal = true}, Vec3f(plant.position.back()));
+      }
+      Nodes cuts;
+      for (std::uint32_t node = 1; node < plant.node_count(); ++node) {
+        if (random.uniform() < share) cuts.push_back(node);
+      }
+      cut_away(plant, nodes_beyond(plant, cuts));
+      const Plant before = plant;
+      compact(plant, 0.0);
+
+      std::uint32_t left = 0;
+      for (std::uint32_t old = 0; old < before.node_count(); ++old) {
+        if (before.is_cut(old)) continue;
+        REQUIRE(left < plant.node_count());
+        CHECK(plant.position[left] == before.position[old]);
+        CHECK(plant.lost_tips[left] == before.lost_tips[old]);
+        CHECK(plant.founds_axis[left] == before.founds_axis[old]);
+        const Axis& axis = plant.axes[plant.axis[left]];
+        CHECK(axis.id == before.axes[before.axis[old]].id);
+        CHECK(plant.position[axis.first] == before.position[before.axes[before.axis[old]].first]);
+        if (old > 0) {
+          CHECK(plant.position[plant.parent[left]] == before.position[before.parent[old]]);
+          CHECK(plant.buds[left].node == left);
+          CHECK(plant.bud_direction[left] == Vec3f(before.position[old]));
+        }
+        ++left;
+      }
+      CHECK(plant.node_count() == left);
+      CHECK(plant.buds.size() == left);
+      CHECK(plant.cut_nodes == 0);
+    }
+  }
 }
 
 TEST_CASE("shedding: an axis is judged by light an internode, not before its time, and only by light") {
