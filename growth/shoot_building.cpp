@@ -5,6 +5,8 @@
 namespace ramify::growth {
 namespace {
 
+constexpr std::size_t kReadAhead = 8;
+
 class Builder {
  public:
   Builder(Plant& plant, const Traces& traces, const Parameters& world, const TreeParameters& tree,
@@ -31,6 +33,11 @@ class Builder {
     make_room(plant_.axes, shoots);
     make_room(plant_.buds, nodes * traces_.buds_per_node + shoots);
     make_room(plant_.bud_direction, nodes * traces_.buds_per_node + shoots);
+  }
+
+  /// Begins to fetch what build() will read: the axes of successive shoots lie anywhere.
+  void prefetch(const Shoot& shoot) const {
+    __builtin_prefetch(&plant_.axes[plant_.axis[plant_.buds[shoot.bud].node]]);
   }
 
   void build(const Shoot& shoot) {
@@ -92,7 +99,7 @@ class Builder {
       reference = Vec3f(transported(Vec3(reference), Vec3(shoot.end_direction), Vec3(direction)));
     }
     plant_.axes[axis].reference = reference;
-    add_bud({.node = node, .is_terminal = true}, direction, slot, kNone);
+    add_bud(node, true, direction, slot, kNone);
   }
 
   void add_all_axillary_buds(std::uint32_t node, std::size_t slot) {
@@ -109,21 +116,23 @@ class Builder {
 
   void add_axillary_bud(std::uint32_t node, std::size_t slot, std::size_t i, std::uint32_t spent) {
     const Vec3f direction = traces_.axillary[slot * traces_.buds_per_node + i];
-    add_bud({.node = node}, direction, slot, spent);
+    add_bud(node, false, direction, slot, spent);
   }
 
-  void add_bud(Bud bud, const Vec3f& direction, std::size_t slot, std::uint32_t spent) {
+  /// In the place of the dead bud `spent`, or behind all others.
+  void add_bud(std::uint32_t node, bool is_terminal, const Vec3f& direction, std::size_t slot,
+               std::uint32_t spent) {
     const Coord& voxel = traces_.voxel[slot];
-    if (is_light_) bud.site = shadow_.site_of(voxel);
-    bud.birth_step = step_;
     if (buds_cast_) changes_.added.push_back(voxel);
-    if (spent == kNone) {
-      plant_.buds.push_back(bud);
-      plant_.bud_direction.push_back(direction);
-    } else {
-      plant_.buds[spent] = bud;
-      plant_.bud_direction[spent] = direction;
-    }
+    // Written where it stays: what is handed on in parts and read back whole waits until all parts are
+    // written.
+    Bud& bud = spent == kNone ? plant_.buds.emplace_back() : plant_.buds[spent];
+    bud.node = node;
+    bud.site = is_light_ ? shadow_.site_of(voxel) : 0;
+    bud.birth_step = step_;
+    bud.is_terminal = is_terminal;
+    bud.is_blind = false;
+    (spent == kNone ? plant_.bud_direction.emplace_back() : plant_.bud_direction[spent]) = direction;
   }
 
   Plant& plant_;
@@ -144,7 +153,10 @@ void build_shoots(Plant& plant, std::span<const Shoot> shoots, const Traces& tra
                   const TreeParameters& tree, ShadowGrid& shadow, int step, CasterChanges& changes) {
   Builder builder(plant, traces, world, tree, shadow, step, changes);
   builder.make_room_for(shoots.size());
-  for (const Shoot& shoot : shoots) builder.build(shoot);
+  for (std::size_t i = 0; i < shoots.size(); ++i) {
+    if (i + kReadAhead < shoots.size()) builder.prefetch(shoots[i + kReadAhead]);
+    builder.build(shoots[i]);
+  }
 }
 
 void sort_buds(Plant& plant) {

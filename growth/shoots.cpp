@@ -81,6 +81,7 @@ class Tracer {
   }
   void prefetch(const Shoot& shoot) const {
     const Bud& bud = plant_.buds[shoot.bud];
+    __builtin_prefetch(&plant_.axes[plant_.axis[bud.node]]);
     if (guides_.world.environment == Environment::light)
       seeker_.prefetch(plant_.position[bud.node], Vec3(plant_.bud_direction[shoot.bud]));
   }
@@ -91,7 +92,11 @@ class Tracer {
     const int order = axis.order + (bud.is_terminal ? 0 : 1);
     std::uint32_t rank = bud.is_terminal ? axis.node_count - 1 : kNone;  // of a new axis the next is 0
     Frame frame{Vec3(plant_.bud_direction[shoot.bud]), Vec3(axis.reference)};
-    if (!bud.is_terminal) frame.reference = first_reference(shoot.axis_id, frame.direction);
+    if (bud.is_terminal) {
+      shoot.axis_id = axis.id;
+    } else {
+      frame.reference = first_reference(shoot.axis_id, frame.direction);
+    }
     Vec3 apex = plant_.position[bud.node];
     set_node(traces, shoot.first, apex);
     if (bud.is_terminal && guides_.tree.tip_bud == TipBud::terminal) {
@@ -210,7 +215,7 @@ std::vector<Shoot> ShootPlanner::next(std::size_t most) {
     Shoot shoot;
     shoot.bud = picked;
     shoot.planned = static_cast<std::uint32_t>(count);
-    shoot.axis_id = bud.is_terminal ? plant_.axes[plant_.axis[bud.node]].id : next_axis_++;
+    if (!bud.is_terminal) shoot.axis_id = next_axis_++;
     shoot.metamer_length = length_ * capped / count;
     shoots.push_back(shoot);
   }

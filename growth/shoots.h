@@ -16,7 +16,7 @@ struct Shoot {
   std::uint32_t bud = 0;
   std::uint32_t planned = 0;  // metamers
   std::uint32_t made = 0;     // fewer where something is in the way
-  std::uint32_t axis_id = 0;  // of the axis it continues or founds
+  std::uint32_t axis_id = 0;  // of the axis it founds or, once traced, continues
   double metamer_length = 0.0;
   std::size_t first = 0;      // its start's slot, once traced; those of its metamers follow
   Vec3f end_direction{0.0f};  // of its last metamer
