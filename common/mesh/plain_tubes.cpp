@@ -165,6 +165,18 @@ template <class T>
   for (std::size_t i = 0; i < count * sizeof(T); i += line) __builtin_prefetch(bytes + i, 1);
 }
 
+/// From one point to the next.
+struct Stretch {
+  Lanes3 along;
+  Lanes length;
+};
+
+Stretch stretch(const Points& from, const Points& to, const Stretch& before) {
+  const Lanes3 step = to.position - from.position;
+  const Lanes distance = length(step);
+  return {select(distance > kLeastLength, step / distance, before.along), distance};
+}
+
 /// The direction of a ring between two stretches.
 Lanes3 between(const Lanes3& before, const Lanes3& after) {
   const Lanes3 sum = before + after;
@@ -223,24 +235,24 @@ void PlainTubeWriter::write(Group& group) {
   Outputs out(plan_, group.tubes, mesh_);
 
   Points at = load(points, 0);
+  Points next = load(points, 1);
   Frames frames;
-  Lanes3 along_before{all_lanes(0.0f), all_lanes(1.0f), all_lanes(0.0f)};
-  Lanes length_before = all_lanes(0.0f);
+  Stretch before{{all_lanes(0.0f), all_lanes(1.0f), all_lanes(0.0f)}, all_lanes(0.0f)};
+  Stretch after = stretch(at, next, before);
+  frames.begin(after.along);
   Lanes radius_before = at.radius;
   Lanes v = all_lanes(0.0f);
   for (std::size_t i = 0;; ++i) {
-    const bool is_last = i + 1 == count;
-    const Points next = is_last ? at : load(points, i + 1);
-    const Lanes3 step = next.position - at.position;
-    const Lanes length_after = length(step);
-    const Lanes3 along_after = select(length_after > kLeastLength, step / length_after, along_before);
-    if (i == 0) {
-      frames.begin(along_after);
-    } else {
-      v += length_before / (std::numbers::pi_v<float> * (at.radius + radius_before));
-      frames.turn_to(is_last ? along_before : between(along_before, along_after));
+    // Worked out for the next ring while this one is written: roots and divisions take long.
+    Points beyond = next;
+    Stretch further{after.along, all_lanes(0.0f)};
+    Lanes3 next_along = after.along;
+    if (i + 2 < count) {
+      beyond = load(points, i + 2);
+      further = stretch(next, beyond, after);
+      next_along = between(after.along, further.along);
     }
-    const Lanes both = length_before + length_after;
+    const Lanes both = before.length + after.length;
     const Lanes slope = both > plan_.axes->thinnest ? (radius_before - next.radius) / both : all_lanes(0.0f);
     const Lanes shorten = 1.0f / root(1.0f + slope * slope);
     out.add_ring(
@@ -248,11 +260,14 @@ void PlainTubeWriter::write(Group& group) {
         around(frames.along * (slope * shorten), frames.side * shorten, frames.across * shorten, circle, 1),
         v, nodes_at(i == 0 ? 1 : i));
     if (i > 0) out.join();
-    if (is_last) break;
+    if (i + 1 == count) break;
+    v += after.length / (std::numbers::pi_v<float> * (next.radius + at.radius));
+    frames.turn_to(next_along);
     radius_before = at.radius;
-    length_before = length_after;
-    along_before = along_after;
     at = next;
+    next = beyond;
+    before = after;
+    after = further;
   }
   const Lanes tip = kTipLength * at.radius;
   const Lanes share = all_lanes(std::numbers::sqrt2_v<float> / 2.0f);
