@@ -5,19 +5,18 @@
 #include "common/base/large_pages.h"
 
 namespace ramify {
-namespace {
-
-// Less than this would waste the better part of its last page.
-constexpr std::size_t kBulk = 4 * kLargePage;
-
-}  // namespace
 
 void* allocate_bulk(std::size_t bytes) {
-  const bool is_bulk = bytes >= kBulk;
-  const std::size_t rounded = (bytes + kLargePage - 1) / kLargePage * kLargePage;
-  void* memory = is_bulk ? std::aligned_alloc(kLargePage, rounded) : std::malloc(bytes);
+  // Only where all of a page is asked for: the rest of the last one stays in small pages, and nothing is
+  // wasted.
+  const std::size_t in_large_pages = bytes / kLargePage * kLargePage;
+  void* memory = nullptr;
+  if (in_large_pages == 0) {
+    memory = std::malloc(bytes);
+  } else if (posix_memalign(&memory, kLargePage, bytes) == 0) {
+    prefer_large_pages(memory, in_large_pages);
+  }
   if (memory == nullptr) throw std::bad_alloc();
-  if (is_bulk) prefer_large_pages(memory, rounded);
   return memory;
 }
 
