@@ -368,6 +368,9 @@ Fork fork_at(const TubePlan& plan, std::size_t lateral) {
   for (int left = kKnotsAside; first != bearer.first && left > 0;) left -= is_knot(--first);
   while (!is_knot(first)) --first;
   std::vector<Knot> knots;
+  // Else both would grow five times for each collar.
+  knots.reserve(2 * kKnotsAside + 1);
+  fork.line.reserve(2 * kKnotsAside + 1);
   int beyond = 0;
   std::uint32_t point = first;
   for (; point != bearer.end() && beyond < kKnotsAside; ++point) {
