@@ -2,9 +2,14 @@
 
 #include "common/base/memory.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
 #include <numeric>
+#include <string>
 #include <vector>
 
+#include "common/base/bulk.h"
 #include "common/base/large_pages.h"
 #include "tests/catch.h"
 
@@ -12,7 +17,15 @@ using namespace ramify;
 
 namespace {
 constexpr std::uint64_t kMega = 1'000'000;
+
+/// Whether the system gives large pages to whoever has not asked for them, so for the ends of arrays, too.
+bool has_large_pages_unasked() {
+  std::ifstream in("/sys/kernel/mm/transparent_hugepage/enabled");
+  std::string modes;
+  std::getline(in, modes);
+  return modes.find("[always]") != std::string::npos;
 }
+}  // namespace
 
 TEST_CASE("memory: a process that takes some holds it, and its peak stays when it is given back") {
   const ProcessMemory before = process_memory();
@@ -55,4 +68,23 @@ TEST_CASE("memory: what is gathered in a large page stays as it is") {
   CHECK(large_page_of(middle) > large_page_of(values.data()));
   gather_in_large_page(middle);
   for (std::size_t i = 0; i < values.size(); ++i) REQUIRE(values[i] == static_cast<int>(i));
+}
+
+TEST_CASE("memory: arrays as large as a large page begin with one, and hold no more than they fill") {
+  constexpr std::size_t size = kLargePage + kLargePage / 2;
+  constexpr std::size_t count = 20;
+  const std::uint64_t before = process_memory().now;
+  std::vector<BulkVector<std::uint8_t>> arrays(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    arrays[i].resize(size);
+    std::ranges::fill(arrays[i], static_cast<std::uint8_t>(i));
+    CHECK(reinterpret_cast<std::uintptr_t>(arrays[i].data()) % kLargePage == 0);
+  }
+  // It would be 10 pages more if their ends were filled up.
+  if (!has_large_pages_unasked()) CHECK(process_memory().now < before + count * size + 5 * kLargePage);
+  for (std::size_t i = 0; i < count; ++i)
+    CHECK(static_cast<std::size_t>(std::ranges::count(arrays[i], static_cast<std::uint8_t>(i))) == size);
+
+  BulkVector<std::uint8_t> small(kLargePage - 1, 7);
+  CHECK(std::ranges::count(small, std::uint8_t{7}) == std::ssize(small));
 }
