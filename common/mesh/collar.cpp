@@ -28,6 +28,12 @@ constexpr double kHidden = 0.6;
 // The facets of a round tip pass its ball inside by this share, at its end.
 constexpr double kTipInset = 0.15;
 
+// Cosine of the angle to the fork up to which no ring of the parent leans enough to matter.
+const double kStraight = std::cos(radians(10.0));
+
+// In radii of the parent: a collar may be so much less deep in it than it is laid.
+constexpr double kMayRise = 0.02;
+
 // Folded lines spread so much less each time; after so many times the whole collar does not.
 constexpr double kLessSpread = 0.6;
 constexpr int kTries = 5;
@@ -39,12 +45,16 @@ constexpr double kFolded = 0.01;
 // would pass the parent by.
 constexpr double kThickest = 0.95;
 
+// In radii of the parent: so far a collar begins below facets that are known.
+constexpr double kBelowFacets = 0.03;
+
 // Laterals at a smaller angle leave the parent as if they had this one, as its sine.
 constexpr double kLeastSine = 0.2;
 
 /// Where the line on one side of the lateral comes out of the parent, metres along the lateral: the greater
 /// root of |across(center + outwards r + along s)|^2 = R^2, across the parent's direction.
 double exit_length(const Fork& fork, const Lateral& lateral, const Vec3& outwards) {
+  if (fork.facets) return fork.facets->exit_length(fork.center + outwards * lateral.radius, lateral.along);
   const double radius = fork.radius * fork.inset;
   const double r = std::min(lateral.radius, kThickest * radius);
   const double cosine = glm::dot(lateral.along, fork.along);
@@ -55,9 +65,28 @@ double exit_length(const Fork& fork, const Lateral& lateral, const Vec3& outward
   return std::max(0.0, (r * lean * cosine + std::sqrt(std::max(0.0, root))) / sine2);
 }
 
+/// Whether a point that lies between two rings, which may lean, is farther than `most` of their radii from
+/// their centers. The planes in between go through the line in which those of the rings meet.
+bool is_outside(const LinePoint& low, const LinePoint& high, const Vec3f& point, float most) {
+  const float above = glm::dot(point - low.position, low.along);
+  const float below = glm::dot(high.position - point, high.along);
+  if (above < 0.0f || below < 0.0f || above + below <= 0.0f) return false;
+  const float share = above / (above + below);
+  const float radius = most * glm::mix(low.radius, high.radius, share);
+  const Vec3f apart = point - glm::mix(low.position, high.position, share);
+  return glm::dot(apart, apart) > radius * radius;
+}
+
+/// The nearest point a little within the parent's facets.
+SurfacePoint within_facets(const Fork& fork, const Vec3& point) {
+  const BearerFacets::Point on = fork.facets->nearest(point);
+  return {on.position - on.normal * (kBelowFacets * fork.radius), on.normal};
+}
+
 }  // namespace
 
 SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback) {
+  if (fork.facets) return within_facets(fork, point);
   Vec3 axis(fork.line[0].position);
   Vec3 tangent = fork.along;
   double radius = fork.line[0].radius;
@@ -91,6 +120,22 @@ SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback
       distance > 1e-9 ? aside / distance : normalized_or(across(fallback), any_perpendicular(fork.along));
   if (is_tip) radius *= 1.0 - kTipInset * std::max(0.0, glm::dot(normal, glm::normalize(tangent)));
   return {axis + normal * (radius * fork.inset), normal};
+}
+
+bool may_stand_out(const Fork& fork, std::span<const Vec3f> feet) {
+  const auto leans = [&](const LinePoint& ring) {
+    return glm::dot(Vec3(ring.along), fork.along) < kStraight;
+  };
+  if (std::none_of(fork.line.begin(), fork.line.end(), leans)) return false;
+  std::vector<LinePoint> rings = fork.line;
+  part_rings(rings, 1);
+  const auto most = static_cast<float>(fork.inset + kMayRise);
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    for (const Vec3f& foot : feet) {
+      if (is_outside(rings[i - 1], rings[i], foot, most)) return true;
+    }
+  }
+  return false;
 }
 
 SurfacePoint CollarLine::at(double t) const {
@@ -128,6 +173,8 @@ CollarLine collar_line(const Fork& fork, const Lateral& lateral, const Vec3& out
                       lateral.along * (kHidden * std::min(exit, fork_radius));
   CollarLine line;
   line.foot = glm::mix(inside, foot.position, outside);
+  if (fork.facets && fork.facets->nearest(line.foot).height > -kBelowFacets * fork.radius)
+    line.foot = within_facets(fork, line.foot).position;
   line.crotch = glm::mix(edge + lateral.along * (0.7 * rise), crotch.position, outside);
   line.top = edge + lateral.along * rise + lateral.bow * (t * t * t - t * t);
   line.foot_normal = normalized_or(glm::mix(outwards, foot.normal, outside), outwards);

@@ -7,18 +7,20 @@
 #include <vector>
 
 #include "common/base/geometry.h"
+#include "common/mesh/bearer_facets.h"
 #include "common/mesh/centre_line.h"
 
 namespace ramify {
 
 /// The parent's wood around the place where a lateral leaves it.
 struct Fork {
-  Vec3 center;                  // where the lateral's own line begins
-  Vec3 along = kUp;             // unit, of the parent there
-  double radius = 0.0;          // of the parent there
-  double inset = 1.0;           // share of the radius that lies within the parent's facets all round
-  std::vector<LinePoint> line;  // of the parent, below and above; not empty
-  bool has_tip = false;         // the line ends in the parent's tip
+  Vec3 center;                           // where the lateral's own line begins
+  Vec3 along = kUp;                      // unit, of the parent there
+  double radius = 0.0;                   // of the parent there
+  double inset = 1.0;                    // share of the radius that lies within the parent's facets all round
+  std::vector<LinePoint> line;           // of the parent, below and above; not empty
+  bool has_tip = false;                  // the line ends in the parent's tip
+  const BearerFacets* facets = nullptr;  // of the parent, where round wood is not like them
 };
 
 struct SurfacePoint {
@@ -29,6 +31,10 @@ struct SurfacePoint {
 /// The point of the parent's wood that lies nearest, seen from its axis. A point on the axis goes to the side
 /// of `fallback`.
 SurfacePoint on_parent(const Fork& fork, const Vec3& point, const Vec3& fallback);
+
+/// Whether one of the points where a collar begins may lie outside of the parent's tube, which is narrower
+/// than its wood where it turns, as its rings lean there.
+bool may_stand_out(const Fork& fork, std::span<const Vec3f> feet);
 
 /// A lateral as its collar needs it.
 struct Lateral {

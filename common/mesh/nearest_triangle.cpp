@@ -52,32 +52,34 @@ Vec3f nearest_shares(const Corners& corners, const Vec3f& point) {
 
 TriangleTree::TriangleTree(const Mesh& mesh, std::vector<std::uint32_t> triangles)
     : mesh_(mesh), triangles_(std::move(triangles)) {
-  add(0, static_cast<std::uint32_t>(triangles_.size()));
+  std::vector<Item> items;
+  items.reserve(triangles_.size());
+  for (const std::uint32_t triangle : triangles_) {
+    const auto [a, b, c] = corners_of(mesh, triangle);
+    items.push_back({triangle, a + b + c, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
+  }
+  nodes_.reserve(items.size());
+  add(items, 0, static_cast<std::uint32_t>(items.size()));
+  for (std::size_t i = 0; i < items.size(); ++i) triangles_[i] = items[i].triangle;
 }
 
-std::uint32_t TriangleTree::add(std::uint32_t first, std::uint32_t count) {
+std::uint32_t TriangleTree::add(std::vector<Item>& items, std::uint32_t first, std::uint32_t count) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   Node node{.first = first, .count = count};
   for (std::uint32_t i = first; i < first + count; ++i) {
-    for (const Vec3f& corner : corners_of(mesh_, triangles_[i])) {
-      node.low = glm::min(node.low, corner);
-      node.high = glm::max(node.high, corner);
-    }
+    node.low = glm::min(node.low, items[i].low);
+    node.high = glm::max(node.high, items[i].high);
   }
   nodes_.push_back(node);
   if (count <= kLeaf) return index;
 
   const Vec3f size = node.high - node.low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto place = [&](std::uint32_t triangle) {
-    const Corners corners = corners_of(mesh_, triangle);
-    return corners[0][axis] + corners[1][axis] + corners[2][axis];
-  };
-  const auto begin = triangles_.begin() + first;
+  const auto begin = items.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count,
-                   [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-  add(first, count / 2);
-  const std::uint32_t second_half = add(first + count / 2, count - count / 2);
+                   [&](const Item& a, const Item& b) { return a.place[axis] < b.place[axis]; });
+  add(items, first, count / 2);
+  const std::uint32_t second_half = add(items, first + count / 2, count - count / 2);
   nodes_[index].second_half = second_half;
   return index;
 }

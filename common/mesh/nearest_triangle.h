@@ -32,7 +32,15 @@ class TriangleTree {
     std::uint32_t second_half = 0;  // index of a node, the first half's comes next after this; 0: a leaf
   };
 
-  std::uint32_t add(std::uint32_t first, std::uint32_t count);
+  /// A triangle while it is put in its place.
+  struct Item {
+    std::uint32_t triangle;
+    Vec3f place;  // thrice its middle
+    Vec3f low;
+    Vec3f high;
+  };
+
+  std::uint32_t add(std::vector<Item>& items, std::uint32_t first, std::uint32_t count);
   void look(std::uint32_t index, const Vec3f& point, NearestTriangle& best) const;
 
   const Mesh& mesh_;

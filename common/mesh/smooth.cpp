@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
+#include <ranges>
+#include <span>
 #include <vector>
 
 #include "common/base/parallel.h"
@@ -15,10 +18,15 @@ namespace ramify {
 namespace {
 
 constexpr std::size_t kGrain = 256;
+constexpr std::size_t kGrainOfCollars = 4;
 
 // Of a round tip, in radii of its branch: where its ring stands and how wide it is.
 constexpr float kTipRing = 0.6f;
 constexpr float kTipRingRadius = 0.75f;
+
+// In radii of the bearer: a collar that stands out by more is laid anew, on the facets that lie so near.
+constexpr double kStandsOut = 0.01;
+constexpr double kFacetsReach = 3.0;
 
 /// Unit vectors along a tube's line and across it.
 struct Frame {
@@ -58,13 +66,29 @@ class TubeWriter {
   TubeWriter(const TubePlan& plan, Mesh& mesh) : plan_(plan), mesh_(mesh) {}
 
   void write(std::size_t index) {
+    Fork fork;
+    if (plan_.tubes[index].collar > 0) fork = fork_at(plan_, index);
+    write(index, fork);
+    if (tube_->collar > 0 && may_stand_out(fork, first_ring(index))) standing_out_.push_back(index);
+  }
+
+  /// Those of the tubes written whose collars may stand out of their bearers.
+  const std::vector<std::size_t>& standing_out() const { return standing_out_; }
+
+  /// Writes one of those anew, on its bearer's facets, if it does. Its bearer must have been written.
+  void mend(std::size_t index) {
+    Fork fork = fork_at(plan_, index);
+    const BearerFacets facets = facets_about(index, fork);
+    if (facets.is_empty() || facets.greatest_height(first_ring(index)) <= kStandsOut * fork.radius) return;
+    fork.facets = &facets;
+    write(index, fork);
+  }
+
+ private:
+  void write(std::size_t index, const Fork& fork) {
     tube_ = &plan_.tubes[index];
     collect_knots(plan_, index, knots_);
-    Fork fork;
-    if (tube_->collar > 0) {
-      fork = fork_at(plan_, index);
-      move_base(fork);
-    }
+    if (tube_->collar > 0) move_base(fork);
     points_.clear();
     flare_ = trace_tube(plan_, *tube_, knots_, points_);
     vertex_ = tube_->first_vertex;
@@ -87,7 +111,20 @@ class TubeWriter {
     if (tube_->is_low) lay_on_ground(index);
   }
 
- private:
+  BearerFacets facets_about(std::size_t index, const Fork& fork) const {
+    const auto [first, end] = triangles_around(plan_, plan_.axes->list[index].bearer);
+    const std::ranges::iota_view all(first, end);
+    const auto node_of = [&](std::size_t t) { return mesh_.internodes[mesh_.triangles[t][0]]; };
+    // Along an axis each node is greater than the one before.
+    const auto low = std::ranges::lower_bound(all, fork.line.front().node, {}, node_of);
+    const auto high = std::ranges::upper_bound(low, all.end(), fork.line.back().node, {}, node_of);
+    return {mesh_, *low, *high, fork.center, kFacetsReach * fork.radius};
+  }
+
+  std::span<const Vec3f> first_ring(std::size_t index) const {
+    return {&mesh_.positions[plan_.tubes[index].first_vertex], plan_.tubes[index].sides};
+  }
+
   template <std::uint32_t Sides>
   std::uint32_t side_count() const {
     return Sides > 0 ? Sides : tube_->sides;
@@ -346,6 +383,7 @@ class TubeWriter {
 
   const TubePlan& plan_;
   Mesh& mesh_;
+  std::vector<std::size_t> standing_out_;
   const Tube* tube_ = nullptr;
   std::vector<Knot> knots_;  // scratch, like the four below
   std::vector<LinePoint> points_;
@@ -367,10 +405,31 @@ Axes axes_without_sharp_turns(const Skeleton& skeleton) {
   return axes;
 }
 
+/// Mends the collars that stand out of their bearers; of these tubes they may.
+void mend_collars(const TubePlan& plan, std::vector<std::size_t> tubes, Mesh& mesh) {
+  std::sort(tubes.begin(), tubes.end());
+  const auto follows_another = [&](std::size_t tube) {
+    return std::binary_search(tubes.begin(), tubes.end(), plan.axes->list[tube].bearer);
+  };
+  parallel_for(tubes.size(), kGrainOfCollars, [&](std::size_t begin, std::size_t end) {
+    TubeWriter writer(plan, mesh);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!follows_another(tubes[i])) writer.mend(tubes[i]);
+    }
+  });
+  // A bearer's own collar comes before those of its laterals.
+  TubeWriter writer(plan, mesh);
+  for (const std::size_t tube : tubes) {
+    if (follows_another(tube)) writer.mend(tube);
+  }
+}
+
 }  // namespace
 
 Mesh sweep(const TubePlan& plan, Mesh memory) {
   Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count, std::move(memory));
+  std::vector<std::size_t> standing_out;
+  std::mutex is_appending;
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     TubeWriter writer(plan, mesh);
     PlainTubeWriter plain(plan, mesh);
@@ -381,7 +440,11 @@ Mesh sweep(const TubePlan& plan, Mesh memory) {
         writer.write(i);
       }
     }
+    if (writer.standing_out().empty()) return;
+    const std::lock_guard lock(is_appending);
+    standing_out.insert(standing_out.end(), writer.standing_out().begin(), writer.standing_out().end());
   });
+  mend_collars(plan, std::move(standing_out), mesh);
   return mesh;
 }
 

@@ -101,19 +101,21 @@ void stand_on_ground(std::vector<LinePoint>& points, float height) {
   part_rings(points, 1);
 }
 
+std::size_t base_sides(const Tube& tube) {
+  return tube.sides * (tube.flare_rings > 0 ? 2 : 1);
+}
+
 // A ring repeats its first vertex at the end, where u jumps from 1 to 0. The tip has a vertex a side, a
 // closed base its rim once more and a center.
 std::size_t vertex_count(const Tube& tube) {
-  const std::size_t base_sides = tube.sides * (tube.flare_rings > 0 ? 2 : 1);
   return tube.rings * (tube.sides + 1) + tube.flare_rings * tube.sides + tube.sides +
-         (tube.is_closed ? base_sides + 1 : 0);
+         (tube.is_closed ? base_sides(tube) + 1 : 0);
 }
 
 std::size_t triangle_count(const Tube& tube) {
-  const std::size_t base_sides = tube.sides * (tube.flare_rings > 0 ? 2 : 1);
   std::size_t bands = (tube.rings - 1) * 2;  // of triangles a side
   if (tube.flare_rings > 0) bands += (tube.flare_rings - 1) * 2 + 1;
-  return (bands + 1) * tube.sides + (tube.is_closed ? base_sides : 0);
+  return (bands + 1) * tube.sides + (tube.is_closed ? base_sides(tube) : 0);
 }
 
 class Planner {
@@ -354,6 +356,13 @@ RootFlare trace_tube(const TubePlan& plan, const Tube& tube, const std::vector<K
   return flare;
 }
 
+std::pair<std::size_t, std::size_t> triangles_around(const TubePlan& plan, std::size_t tube) {
+  const bool is_last = tube + 1 == plan.tubes.size();
+  const std::size_t end = is_last ? plan.triangle_count : plan.tubes[tube + 1].first_triangle;
+  const Tube& of = plan.tubes[tube];
+  return {of.first_triangle, end - (of.is_closed ? base_sides(of) : 0)};
+}
+
 Fork fork_at(const TubePlan& plan, std::size_t lateral) {
   const Axes& axes = *plan.axes;
   const std::uint32_t base = axes.list[lateral].base;
@@ -379,7 +388,14 @@ Fork fork_at(const TubePlan& plan, std::size_t lateral) {
     if (knots.size() > 1) knots.back().rings = plan.rings[point];
     beyond += point > base;
   }
-  if (first == bearer.first && tube.collar > 0 && knots.size() > 1) knots[1].room *= kRoomBesideCollar;
+  if (first == bearer.first && tube.collar > 0 && knots.size() > 1) {
+    // A collar begins on its bearer's line, which may pass by the point.
+    if (base <= knots[1].point && plan.rings[bearer.base] != 1) {
+      knots[0].position = Vec3f(fork_at(plan, axes.list[lateral].bearer).center);
+      measure(knots);
+    }
+    knots[1].room *= kRoomBesideCollar;
+  }
   trace_line(knots, plan.line, fork.line);
   fork.has_tip = point == bearer.end();
 

@@ -65,6 +65,10 @@ TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOpti
 /// The knots of a tube that is not left out, measured; a lateral's begin at its bearer's point.
 void collect_knots(const TubePlan& plan, std::size_t tube, std::vector<Knot>& knots);
 
+/// A tube's triangles in the mesh but for its closed base's, from its base to its tip: the first one and the
+/// one behind the last.
+std::pair<std::size_t, std::size_t> triangles_around(const TubePlan& plan, std::size_t tube);
+
 /// The bearer's wood where a lateral leaves it.
 Fork fork_at(const TubePlan& plan, std::size_t tube);
 

@@ -186,3 +186,79 @@ TEST_CASE("close-ups: a collar begins within a parent that bends, by either cent
     }
   }
 }
+
+namespace {
+
+/// How far the first ring of the last axis' collar is outside of the mesh without that axis, seen from a
+/// place within both, in parts of `radius`. That axis comes last in the mesh; a ring ends where u is 1.
+double farthest_outside(const Mesh& bearer, const Mesh& mesh, const Vec3& center, double radius) {
+  double farthest = -1.0;
+  for (std::size_t v = bearer.vertex_count(); v < mesh.vertex_count(); ++v) {
+    const Vec3 from = Vec3(mesh.positions[v]) - center;
+    const double inside = reach(bearer, center, glm::normalize(from));
+    farthest = std::max(farthest, (glm::length(from) - inside) / radius);
+    if (mesh.uvs[v].x == 1.0f) break;
+  }
+  return farthest;
+}
+
+}  // namespace
+
+TEST_CASE("close-ups: a collar begins within a parent that turns sharply between short internodes") {
+  const MesherOptions options{.root_flare = 0.0};
+  for (const double turn_deg : {60.0, 75.0, 90.0}) {
+    const double turn = radians(turn_deg);
+    Skeleton s;
+    add_node(s, {0, 0, 0}, kNoParent, 0.2);
+    add_node(s, {0, 1.0, 0}, 0, 0.2);
+    add_node(s, {0, 1.3, 0}, 1, 0.2);
+    add_node(s, Vec3(0, 1.3, 0) + Vec3(std::sin(turn), std::cos(turn), 0) * 0.3, 2, 0.2);
+    add_node(s, Vec3(0, 1.3, 0) + Vec3(std::sin(turn), std::cos(turn), 0) * 1.3, 3, 0.2);
+    s.axis.assign(5, 0);
+    const Mesh bearer = build_mesh(s, options);
+    // Along the line between both directions, and up to square to it.
+    const Vec3 middle = glm::normalize(Vec3(std::sin(turn), 1.0 + std::cos(turn), 0));
+    const Vec3 outer = glm::normalize(Vec3(-middle.y, middle.x, 0));
+    for (const double lean_deg : {40.0, 65.0, 90.0}) {
+      for (const double toward_deg : {0.0, 45.0, 90.0, 135.0, 180.0}) {
+        for (const double share : {0.4, 0.7, 0.95}) {
+          const double toward = radians(toward_deg);
+          const Vec3 aside = outer * std::cos(toward) + Vec3(0, 0, std::sin(toward));
+          const Vec3 along = middle * std::cos(radians(lean_deg)) + aside * std::sin(radians(lean_deg));
+          Skeleton forked = s;
+          add_node(forked, s.position[2] + along, 2, 0.2 * share);
+          forked.axis.push_back(1);
+          const Mesh mesh = build_mesh(forked, options);
+          INFO(turn_deg << " degrees, leans " << lean_deg << " towards " << toward_deg << ", " << share);
+          CHECK(farthest_outside(bearer, mesh, s.position[2], 0.1) < 0.01);
+          CHECK(flipped_triangles(mesh) <= flipped_triangles(bearer));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "close-ups: a collar begins within a parent whose own base was moved to the middle of a rounded bend") {
+  const MesherOptions options{.root_flare = 0.0};
+  for (const double turn_deg : {25.0, 40.0, 55.0}) {
+    const double turn = radians(turn_deg);
+    Skeleton s;
+    add_node(s, {0, 0, 0}, kNoParent, 0.4);
+    add_node(s, {0, 1.5, 0}, 0, 0.4);
+    add_node(s, Vec3(0, 1.5, 0) + Vec3(std::sin(turn), std::cos(turn), 0) * 1.5, 1, 0.4);
+    s.axis.assign(3, 0);
+    add_node(s, {0.0, 1.6, 0.45}, 1, 0.1);
+    add_node(s, {0.0, 1.7, 1.2}, 3, 0.1);
+    s.axis.insert(s.axis.end(), {1, 1});
+    const Mesh bearer = build_mesh(s, options);
+    for (double toward_deg = 0.0; toward_deg < 360.0; toward_deg += 45.0) {
+      const double toward = radians(toward_deg);
+      Skeleton forked = s;
+      add_node(forked, s.position[3] + Vec3(std::cos(toward), std::sin(toward), 0.2) * 0.5, 3, 0.06);
+      forked.axis.push_back(2);
+      INFO(turn_deg << " degrees, towards " << toward_deg);
+      CHECK(farthest_outside(bearer, build_mesh(forked, options), s.position[3], 0.05) < 0.01);
+    }
+  }
+}
