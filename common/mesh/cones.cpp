@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "common/base/parallel.h"
+#include "common/mesh/bark_stretches.h"
 #include "common/mesh/detail.h"
 #include "common/mesh/wood.h"
 
@@ -28,6 +30,9 @@ constexpr std::uint32_t kTipLatitudes = 5;
 constexpr std::uint32_t kTwigSides = 5;
 constexpr std::uint32_t kTwigTipLatitudes = 3;
 
+// Of a cone of an axis that winds: what lies by the place is not straight along its sides.
+constexpr std::uint32_t kWindingBands = 3;
+
 /// How the parts of one node lie: its sphere, and the cone from its parent.
 struct NodePart {
   Vec3 along;      // unit, of the internode
@@ -39,6 +44,8 @@ struct NodePart {
   bool has_cone = false;
   bool has_sphere = false;
   bool is_tip = false;             // the axis ends here
+  bool winds = false;              // so does the axis: its bends reach into each other, see is_squeezed()
+  std::uint32_t bands = 1;         // of the cone, one above the other
   std::uint32_t root = 0;          // of the tree
   std::uint32_t axis_sides = 0;    // of the axis at its base, as thick axes have them
   std::uint32_t sides = 0;         // of the cone: as many, but for coarse levels
@@ -56,14 +63,14 @@ std::uint32_t latitudes(const NodePart& part) {
 
 // A ring repeats its first vertex at the end, where u jumps from 1 to 0; a pole has a vertex a side.
 std::size_t vertex_count(const NodePart& part) {
-  const std::size_t of_cone = part.has_cone ? 2 * (part.sides + 1) : 0;
+  const std::size_t of_cone = part.has_cone ? (part.bands + 1) * (part.sides + 1) : 0;
   if (!part.has_sphere) return of_cone;
   return of_cone + latitudes(part) * (part.sphere_sides + 1) + 2 * part.sphere_sides;
 }
 
 std::size_t triangle_count(const NodePart& part) {
   // Both caps of a sphere together have as many as one band.
-  return (part.has_cone ? 2 * part.sides : 0) +
+  return (part.has_cone ? 2 * part.bands * part.sides : 0) +
          (part.has_sphere ? 2 * latitudes(part) * part.sphere_sides : 0);
 }
 
@@ -71,12 +78,44 @@ double radius(const Skeleton& skeleton, std::size_t node, double thinnest) {
   return std::max(0.5 * skeleton.diameter[node], thinnest);
 }
 
+/// Whether the bends at both ends of a cone leave too little bark between them on some side. What is seen of
+/// it is then cut off by more than the cones next to it.
+bool is_squeezed(const NodePart& part, double length, double end_radius) {
+  const auto reach = [&](double radius, const Vec3& bend) {
+    return radius * glm::length(glm::cross(part.along, bend)) / glm::dot(part.along, bend);
+  };
+  const double bends = reach(part.base_radius, part.base_bend) + reach(end_radius, part.bend);
+  return bends > (1.0 - kLeastBark) * length;
+}
+
 struct ConesPlan {
   std::vector<NodePart> parts;
-  std::vector<bool> has_roots;  // of each tree; without, it stands flat on the ground
+  std::vector<bool> has_roots;             // of each tree; without, it stands flat on the ground
+  bool has_winding = false;                // some axis
+  std::optional<BarkStretches> stretches;  // if so, in the end
+  double tolerance = 0.0;                  // metres
   std::size_t vertex_count = 0;
   std::size_t triangle_count = 0;
 };
+
+/// Bark lies on these by the place alone.
+void find_winding_axes(const Skeleton& skeleton, double thinnest, ConesPlan& plan) {
+  std::vector<std::uint32_t> first(plan.parts.size());  // node of each one's axis
+  std::vector<bool> winds(plan.parts.size(), false);    // of those nodes
+  for (std::uint32_t node = 0; node < first.size(); ++node) {
+    const NodePart& part = plan.parts[node];
+    const bool goes_on =
+        !skeleton.is_root(node) && skeleton.axis[node] == skeleton.axis[skeleton.parent[node]];
+    first[node] = goes_on ? first[skeleton.parent[node]] : node;
+    if (part.has_cone && is_squeezed(part, skeleton.length(node), radius(skeleton, node, thinnest)))
+      winds[first[node]] = plan.has_winding = true;
+  }
+  for (std::size_t node = 0; node < first.size(); ++node) {
+    NodePart& part = plan.parts[node];
+    part.winds = winds[first[node]];
+    if (part.winds && plan.tolerance <= 0.0) part.bands = kWindingBands;
+  }
+}
 
 /// Frames are carried along each axis, so that bark does not turn from one cone to the next. With a
 /// tolerance, metres, axes that reach no farther are left out, like spheres of its size.
@@ -85,6 +124,7 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
   const double greatest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
   const std::vector<bool> is_kept = kept_axes(skeleton, tolerance);
   ConesPlan plan;
+  plan.tolerance = tolerance;
   plan.parts.resize(skeleton.node_count());
   plan.has_roots.assign(skeleton.root_count(), false);
   std::vector<NodePart>& parts = plan.parts;
@@ -123,6 +163,7 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     if (goes_on) part.v += parts[parent].v;
     part.has_cone = is_kept[node] && length > std::abs(part.base_radius - end_radius) + thinnest;
   }
+  find_winding_axes(skeleton, thinnest, plan);
   for (NodePart& part : parts) {
     part.first_vertex = plan.vertex_count;
     part.first_triangle = plan.triangle_count;
@@ -141,6 +182,7 @@ class PartBuilder {
         node_(static_cast<std::uint32_t>(node)),
         part_(plan.parts[node]),
         end_radius_(end_radius),
+        stretches_(part_.winds ? &*plan.stretches : nullptr),
         mesh_(mesh),
         vertex_(part_.first_vertex),
         triangle_(part_.first_triangle) {
@@ -154,6 +196,7 @@ class PartBuilder {
   void build() {
     if (part_.has_cone) add_cone();
     if (part_.has_sphere) add_sphere();
+    if (stretches_) lay_bark_by_place();
   }
 
  private:
@@ -202,17 +245,19 @@ class PartBuilder {
     const std::uint32_t parent = skeleton_.parent[node_];
     const double length = skeleton_.length(node_);
     const double sine = (part_.base_radius - end_radius_) / length;
-    const std::size_t low = vertex_;
-    add_circle(skeleton_.position[parent], part_.base_radius, sine, [&](std::uint32_t i, const Vec3&) {
-      return glm::dvec2(static_cast<double>(i) / sides_,
-                        v_on_cone(outwards(i % sides_), sine * part_.base_radius));
-    });
-    const std::size_t high = vertex_;
-    add_circle(skeleton_.position[node_], end_radius_, sine, [&](std::uint32_t i, const Vec3&) {
-      return glm::dvec2(static_cast<double>(i) / sides_,
-                        v_on_cone(outwards(i % sides_), length + sine * end_radius_));
-    });
-    join_circles(low, high);
+    const auto add_ring = [&](double share) {
+      const Vec3 center = glm::mix(skeleton_.position[parent], skeleton_.position[node_], share);
+      const double radius = glm::mix(part_.base_radius, end_radius_, share);
+      add_circle(center, radius, sine, [&](std::uint32_t i, const Vec3&) {
+        return glm::dvec2(static_cast<double>(i) / sides_,
+                          v_on_cone(outwards(i % sides_), share * length + sine * radius));
+      });
+    };
+    add_ring(0.0);
+    for (std::uint32_t band = 1; band <= part_.bands; ++band) {
+      add_ring(static_cast<double>(band) / part_.bands);
+      join_circles(vertex_ - 2 * (sides_ + 1), vertex_ - (sides_ + 1));
+    }
   }
 
   /// On one side of the cone, `x` metres from its base. Where the axis bends, cones meet in a plane: there
@@ -264,6 +309,47 @@ class PartBuilder {
             part_.v + std::asin(std::clamp(height, -1.0, 1.0)) / (2.0 * std::numbers::pi)};
   }
 
+  /// Instead of what has been laid: all surfaces about one place show the same there.
+  void lay_bark_by_place() {
+    std::size_t ring = part_.first_vertex;
+    if (part_.has_cone) {
+      float first = 0.0f;
+      for (std::uint32_t i = 0; i <= part_.bands; ++i, ring += part_.sides + 1) {
+        lay_ring(ring, part_.sides, first);
+        first = mesh_.uvs[ring].x;
+      }
+    }
+    if (!part_.has_sphere) return;
+    const std::uint32_t sides = part_.sphere_sides;
+    const std::size_t lowest = ring;
+    const std::size_t poles = lowest + latitudes(part_) * (sides + 1);
+    for (float first = 0.0f; ring < poles; ring += sides + 1) {
+      lay_ring(ring, sides, first);
+      first = mesh_.uvs[ring].x;
+    }
+    const std::size_t highest = poles - (sides + 1);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      lay_pole(poles + 2 * i, lowest + i);
+      lay_pole(poles + 2 * i + 1, highest + i);
+    }
+  }
+
+  Vec2f uv_at(std::size_t vertex) const { return stretches_->uv(node_, Vec3(mesh_.positions[vertex])); }
+
+  /// u goes on from vertex to vertex, and from that of the ring below.
+  void lay_ring(std::size_t first, std::uint32_t sides, float u) {
+    for (std::size_t vertex = first; vertex <= first + sides; ++vertex) {
+      const Vec2f own = uv_at(vertex);
+      u = own.x + std::round(u - own.x);
+      mesh_.uvs[vertex] = {u, own.y};
+    }
+  }
+
+  /// Between two vertices of the circle next to it.
+  void lay_pole(std::size_t pole, std::size_t on_circle) {
+    mesh_.uvs[pole] = {0.5f * (mesh_.uvs[on_circle].x + mesh_.uvs[on_circle + 1].x), uv_at(pole).y};
+  }
+
   void add_pole(double sign, std::uint32_t side) {
     const Vec3 normal = axis_ * sign;
     const double u = (side + 0.5) / sides_;
@@ -274,6 +360,7 @@ class PartBuilder {
   std::uint32_t node_;
   const NodePart& part_;
   double end_radius_;
+  const BarkStretches* stretches_;                            // of axes that wind; else none
   std::uint32_t sides_ = 0;                                   // of what is being added, like the two below
   Vec3 axis_{0.0};                                            // unit: it stands around this
   Vec3 side_{0.0};                                            // unit, of its first corner
@@ -297,6 +384,7 @@ Mesh cones_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   }
   Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count);
   const double thinnest = thinnest_radius(skeleton);
+  if (plan.has_winding) plan.stretches.emplace(skeleton);
   parallel_for(plan.parts.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t node = begin; node < end; ++node) {
       PartBuilder(skeleton, node, plan, radius(skeleton, node, thinnest), mesh).build();

@@ -262,3 +262,63 @@ TEST_CASE(
     }
   }
 }
+
+namespace {
+
+/// Texture coordinates of the last triangle that a ray meets.
+Vec2f outermost_uv(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
+  double farthest = 0.0;
+  Vec2f uv(0.0f);
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 a(mesh.positions[i]);
+    const Vec3 ab = Vec3(mesh.positions[j]) - a;
+    const Vec3 ac = Vec3(mesh.positions[k]) - a;
+    const Vec3 across = glm::cross(direction, ac);
+    const double determinant = glm::dot(ab, across);
+    if (std::abs(determinant) < 1e-15) continue;
+    const auto second = static_cast<float>(glm::dot(from - a, across) / determinant);
+    const Vec3 other = glm::cross(from - a, ab);
+    const auto third = static_cast<float>(glm::dot(direction, other) / determinant);
+    const double distance = glm::dot(ac, other) / determinant;
+    if (second < 0.0f || third < 0.0f || second + third > 1.0f || distance < farthest) continue;
+    farthest = distance;
+    uv = mesh.uvs[i] * (1.0f - second - third) + mesh.uvs[j] * second + mesh.uvs[k] * third;
+  }
+  return uv;
+}
+
+}  // namespace
+
+TEST_CASE("close-ups: by cones bark does not jump on wood that winds in internodes shorter than its radius") {
+  for (const double turn_deg : {25.0, 45.0, 65.0}) {
+    Skeleton s;
+    add_node(s, {0, 0, 0}, kNoParent, 0.5);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      // To and fro, and round.
+      const double lean = (i % 2 == 0 ? 0.5 : -0.5) * radians(turn_deg);
+      const double toward = 0.8 * i;
+      const Vec3 aside(std::cos(toward), 0, std::sin(toward));
+      add_node(s, s.position[i] + 0.18 * (kUp * std::cos(lean) + aside * std::sin(lean)), i, 0.5);
+    }
+    s.axis.assign(9, 0);
+    const Mesh mesh = build_mesh(s, {.method = MeshMethod::cones});
+    double greatest_u = 0.0;
+    double greatest_v = 0.0;
+    for (double angle = 0.0; angle < 2.0 * std::numbers::pi; angle += 0.3) {
+      const Vec3 outwards(std::cos(angle), 0, std::sin(angle));
+      constexpr double step = 0.004;
+      Vec2f before = outermost_uv(mesh, {0, 0.3, 0}, outwards);
+      for (double height = 0.3 + step; height < 1.1; height += step) {
+        const Vec2f here = outermost_uv(mesh, {0, height, 0}, outwards);
+        const Vec2f apart = here - before;
+        before = here;
+        // An arc of the girth is as long by v, but where the surface is steep.
+        greatest_u = std::max(greatest_u, std::abs(double{apart.x} - std::round(apart.x)));
+        greatest_v = std::max(greatest_v, std::abs(apart.y - step / (0.5 * std::numbers::pi)));
+      }
+    }
+    INFO(turn_deg << " degrees");
+    CHECK(greatest_u < 0.03);
+    CHECK(greatest_v < 0.02);
+  }
+}
