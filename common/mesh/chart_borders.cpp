@@ -21,6 +21,14 @@ struct CutEdge {
   friend auto operator<=>(const CutEdge&, const CutEdge&) = default;
 };
 
+/// An axis to which a vertex may go.
+struct Offer {
+  std::uint32_t vertex;
+  double distance;  // from that axis, metres
+  std::uint32_t internode;
+  friend auto operator<=>(const Offer&, const Offer&) = default;
+};
+
 class Cutter {
  public:
   Cutter(const Skeleton& skeleton, Mesh& mesh)
@@ -32,6 +40,7 @@ class Cutter {
   }
 
   std::vector<std::uint32_t> cut() {
+    give_up_specks();
     find_edges();
     add_vertices();
     std::vector<std::uint32_t> internodes(mesh_.triangles.size());
@@ -53,6 +62,32 @@ class Cutter {
 
   bool is_mixed(const Triangle& triangle) const {
     return is_between(triangle[0], triangle[1]) || is_between(triangle[1], triangle[2]);
+  }
+
+  /// Wood of an axis that shows in single vertices, as where it is hardly wider than a triangle between two
+  /// others, would make saws of their borders. Those vertices go to the axis next to them that is nearest.
+  void give_up_specks() {
+    std::vector<bool> is_speck(mesh_.vertex_count(), true);  // no triangle lies wholly on its axis
+    for (const Triangle& triangle : mesh_.triangles) {
+      if (is_mixed(triangle)) continue;
+      for (const std::uint32_t v : triangle) is_speck[v] = false;
+    }
+    std::vector<Offer> offers;
+    for (const Triangle& triangle : mesh_.triangles) {
+      for (const std::uint32_t v : triangle) {
+        if (!is_speck[v]) continue;
+        for (const std::uint32_t other : triangle) {
+          const std::uint32_t internode = mesh_.internodes[other];
+          if (is_between(v, other))
+            offers.push_back({v, distance(Vec3(mesh_.positions[v]), internode), internode});
+        }
+      }
+    }
+    std::sort(offers.begin(), offers.end());
+    for (std::size_t i = 0; i < offers.size(); ++i) {
+      if (i == 0 || offers[i].vertex != offers[i - 1].vertex)
+        mesh_.internodes[offers[i].vertex] = offers[i].internode;
+    }
   }
 
   void find_edges() {

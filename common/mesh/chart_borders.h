@@ -10,9 +10,10 @@
 namespace ramify {
 
 /// Cuts the triangles whose corners belong to several axes along the line where the wood of two axes is
-/// equally near, so that charts meet in a smooth curve. New vertices, on the edges between, come at the end
-/// of the arrays; the surface stays as it is. Returns an internode for each triangle, of the one axis that it
-/// now lies on. mesh.uvs are not set. O(n), and a sort of the edges cut.
+/// equally near, so that charts meet in a smooth curve. Single vertices of an axis go to the one next to them
+/// before that: mesh.internodes changes. New vertices, on the edges between, come at the end of the arrays;
+/// the surface stays as it is. Returns an internode for each triangle, of the one axis that it now lies on.
+/// mesh.uvs are not set. O(n), and a sort of the edges cut.
 std::vector<std::uint32_t> cut_between_axes(const Skeleton& skeleton, Mesh& mesh);
 
 }  // namespace ramify

@@ -8,6 +8,7 @@
 #include "common/base/errors.h"
 #include "common/base/parallel.h"
 #include "common/config/job.h"
+#include "common/mesh/chart_borders.h"
 #include "common/mesh/wood_field.h"
 #include "common/skeleton/passes.h"
 #include "growth/engine.h"
@@ -404,4 +405,35 @@ TEST_CASE("watertight: coarser levels and budgets have fewer triangles and are a
   check_closed(mesh, 1);
   options.max_triangles = 20;
   CHECK(error_of(tree, options).find("triangles; 20 are allowed by max_triangles") != std::string::npos);
+}
+
+TEST_CASE("watertight: wood that shows in single vertices between two axes makes no saw of their border") {
+  // Two poles, and a third one behind them.
+  Skeleton s;
+  for (const double x : {-1.0, 1.0, 0.0}) add_node(s, {x, -4, x == 0.0 ? -1.2 : -1.0}, kNoParent, 0.2);
+  for (std::uint32_t root = 0; root < 3; ++root) add_node(s, s.position[root] + Vec3(0, 8, 0), root, 0.2);
+  s.axis = {0, 1, 2, 0, 1, 2};
+  for (const std::uint32_t every : {2u, 3u, 4u}) {
+    // A wall before them, of squares: of the column in the middle some vertices belong to the third pole.
+    constexpr std::uint32_t size = 9;
+    Mesh mesh;
+    for (std::uint32_t row = 0; row < size; ++row) {
+      for (std::uint32_t column = 0; column < size; ++column) {
+        const auto x = static_cast<float>(column) - 4.2f;
+        const bool is_third = column == 4 && row % every == 0 && row > 1 && row + 2 < size;
+        mesh.positions.push_back({x, static_cast<float>(row) - 4.0f, 0});
+        mesh.normals.push_back({0, 0, 1});
+        mesh.internodes.push_back(is_third ? 5 : x < 0 ? 3 : 4);
+        if (row == 0 || column == 0) continue;
+        const std::uint32_t v = row * size + column;
+        mesh.triangles.push_back({v - size - 1, v - size, v});
+        mesh.triangles.push_back({v - size - 1, v, v - 1});
+      }
+    }
+    const std::vector<std::uint32_t> internodes = cut_between_axes(s, mesh);
+    INFO("every " << every);
+    CHECK(std::count(internodes.begin(), internodes.end(), 5u) == 0);
+    for (std::size_t v = size * size; v < mesh.vertex_count(); ++v)
+      CHECK(mesh.positions[v].x == Approx(0.0).margin(0.03));
+  }
 }
