@@ -28,6 +28,9 @@ constexpr int kKnotsAside = 4;
 // A collar begins by so much inside the facets of the parent.
 constexpr double kWithinFacets = 0.97;
 
+// A bearer's base lies where its own bearer's base lets it: beyond so many bearers that is not felt.
+constexpr int kMovedBases = 3;
+
 constexpr std::size_t kGrain = 256;
 
 std::uint8_t collar_stretches(std::uint32_t sides) {
@@ -363,7 +366,10 @@ std::pair<std::size_t, std::size_t> triangles_around(const TubePlan& plan, std::
   return {of.first_triangle, end - (of.is_closed ? base_sides(of) : 0)};
 }
 
-Fork fork_at(const TubePlan& plan, std::size_t lateral) {
+namespace {
+
+/// `moved_bases`: for so many bearers, each the bearer of the one before, it is asked where their bases are.
+Fork fork_at(const TubePlan& plan, std::size_t lateral, int moved_bases) {
   const Axes& axes = *plan.axes;
   const std::uint32_t base = axes.list[lateral].base;
   const Axis& bearer = axes.list[axes.list[lateral].bearer];
@@ -390,8 +396,8 @@ Fork fork_at(const TubePlan& plan, std::size_t lateral) {
   }
   if (first == bearer.first && tube.collar > 0 && knots.size() > 1) {
     // A collar begins on its bearer's line, which may pass by the point.
-    if (base <= knots[1].point && plan.rings[bearer.base] != 1) {
-      knots[0].position = Vec3f(fork_at(plan, axes.list[lateral].bearer).center);
+    if (moved_bases > 0 && base <= knots[1].point && plan.rings[bearer.base] != 1) {
+      knots[0].position = Vec3f(fork_at(plan, axes.list[lateral].bearer, moved_bases - 1).center);
       measure(knots);
     }
     knots[1].room *= kRoomBesideCollar;
@@ -418,6 +424,12 @@ Fork fork_at(const TubePlan& plan, std::size_t lateral) {
     fork.along = normalized_or(glm::mix(Vec3(fork.line[i - 1].along), Vec3(fork.line[i].along), t), kUp);
   }
   return fork;
+}
+
+}  // namespace
+
+Fork fork_at(const TubePlan& plan, std::size_t lateral) {
+  return fork_at(plan, lateral, kMovedBases);
 }
 
 }  // namespace ramify

@@ -263,6 +263,28 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("close-ups: a long row of axes, each on the first internode of the one before, is meshed") {
+  Skeleton s;
+  add_node(s, {0, 0, 0}, kNoParent, 0.2);
+  s.axis = {0};
+  constexpr std::uint32_t count = 50000;
+  std::uint32_t base = 0;
+  for (std::uint32_t i = 1; i <= count; ++i) {
+    const double turn = 0.4 * i;
+    const Vec3 step(std::cos(turn), 1.0, std::sin(turn));
+    const std::uint32_t bearer = base;
+    base = static_cast<std::uint32_t>(s.node_count());
+    add_node(s, s.position[bearer] + step, bearer, 0.2);
+    add_node(s, s.position[base] + Vec3(-step.z, 1.0, step.x), base, 0.2);  // so far round that it is rounded
+    s.axis.insert(s.axis.end(), {i, i});
+  }
+  const Mesh mesh = build_mesh(s, {});
+  CHECK(mesh.triangles.size() > 12 * count);
+  CHECK(std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3f& p) {
+    return std::isfinite(p.x + p.y + p.z) && p.y < s.position.back().y + 1.0f;
+  }));
+}
+
 namespace {
 
 /// Texture coordinates of the last triangle that a ray meets.
