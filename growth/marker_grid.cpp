@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -69,7 +68,7 @@ struct MarkerGrid::Chunks {
 
   std::size_t count;
   std::size_t layers;
-  std::unique_ptr<Vec3f[]> offsets;
+  BulkVector<Vec3f> offsets;
   std::vector<std::uint32_t> ends;  // of the layers of each chunk, from the chunk's begin
 };
 
@@ -108,7 +107,7 @@ void MarkerGrid::lay_out(double marker_count) {
 MarkerGrid::Chunks MarkerGrid::drawn(const DrawMarkers& draw) const {
   const std::size_t chunk_count = (count_ + kChunk - 1) / kChunk;
   const auto layers = static_cast<std::size_t>(size_.z);
-  Chunks chunks{chunk_count, layers, std::make_unique_for_overwrite<Vec3f[]>(count_),
+  Chunks chunks{chunk_count, layers, BulkVector<Vec3f>(count_),
                 std::vector<std::uint32_t>(chunk_count * layers)};
   parallel_for(chunk_count, 1, [&](std::size_t begin, std::size_t end) {
     std::vector<Vec3f> offsets;
@@ -136,8 +135,8 @@ void MarkerGrid::place(const Chunks& chunks) {
   holes_.resize(blocks);
   begin_.resize(blocks * (kBlock + 1));
   for (auto* const values : {&x_, &y_, &z_}) {
-    *values = std::make_unique_for_overwrite<float[]>(place_count());
-    std::fill_n(values->get() + count_, place_count() - count_, kNowhere);
+    values->resize(place_count());
+    std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(count_), place_count() - count_, kNowhere);
   }
 
   std::vector<std::uint32_t> first_place(chunks.layers + 1);
@@ -372,7 +371,7 @@ void MarkerGrid::close_holes(std::uint32_t block) {
     }
     begin[slice + 1] = kept;
   }
-  std::fill(x_.get() + kept, x_.get() + place, kNowhere);
+  std::fill(x_.begin() + kept, x_.begin() + place, kNowhere);
 }
 
 std::vector<Vec3> MarkerGrid::points() const {

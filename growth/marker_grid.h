@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "common/base/bulk.h"
 #include "common/base/geometry.h"
 #include "common/base/lanes.h"
 
@@ -76,9 +76,9 @@ class MarkerGrid {
   std::size_t place_count() const { return place_count_; }
 
   /// Offsets of markers by place; where none is, nowhere near the box.
-  const float* x() const { return x_.get(); }
-  const float* y() const { return y_.get(); }
-  const float* z() const { return z_.get(); }
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
   Vec3 offset(std::size_t place) const { return {x_[place], y_[place], z_[place]}; }
 
   /// Cells along each axis, and the one of an offset: the nearest for an offset outside the box.
@@ -135,7 +135,7 @@ class MarkerGrid {
   std::vector<std::uint8_t> neighbours_;  // how many cells within `dilation_` of a cell have markers
   std::vector<std::uint32_t> begin_;      // place of each slice; after those of a block, the last one's end
   std::vector<std::uint32_t> holes_;      // by block: places of taken markers between begin and end
-  std::unique_ptr<float[]> x_, y_, z_;    // slice by slice
+  BulkVector<float> x_, y_, z_;           // slice by slice
 };
 
 }  // namespace ramify::growth

@@ -78,7 +78,7 @@ class Markers {
   Claim collect(const Seeker& seeker, std::uint32_t number, std::span<const std::uint32_t> won);
 
   MarkerGrid grid_;
-  std::vector<std::uint64_t> best_;  // the best bid for each marker, by place; kNoBid between calls
+  BulkVector<std::uint64_t> best_;  // the best bid for each marker, by place; kNoBid between calls
 
   // Of the last claim
   std::vector<std::uint32_t> brick_;             // of each seeker
