@@ -1,6 +1,8 @@
 // What would be seen from near: tips, the joints of bends, what lies on the ground.
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "common/mesh/mesher.h"
 #include "common/skeleton/passes.h"
@@ -12,9 +14,16 @@ using namespace ramify::test;
 
 namespace {
 
-/// How far the mesh goes from a point in a direction, a unit vector: to the last triangle that the ray meets.
-double reach(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
-  double farthest = 0.0;
+/// Where a ray meets a triangle: how far from its start, and the shares of the second and third corner.
+struct Hit {
+  double distance = 0.0;
+  double second = 0.0;
+  double third = 0.0;
+};
+
+/// The last triangle that a ray meets, in a direction, a unit vector; none: nullopt.
+std::optional<std::pair<Triangle, Hit>> last_hit(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
+  std::optional<std::pair<Triangle, Hit>> last;
   for (const auto& [i, j, k] : mesh.triangles) {
     const Vec3 a(mesh.positions[i]);
     const Vec3 ab = Vec3(mesh.positions[j]) - a;
@@ -22,13 +31,19 @@ double reach(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
     const Vec3 across = glm::cross(direction, ac);
     const double determinant = glm::dot(ab, across);
     if (std::abs(determinant) < 1e-15) continue;
-    const double u = glm::dot(from - a, across) / determinant;
     const Vec3 other = glm::cross(from - a, ab);
-    const double v = glm::dot(direction, other) / determinant;
-    if (u < -1e-6 || v < -1e-6 || u + v > 1.0 + 1e-6) continue;
-    farthest = std::max(farthest, glm::dot(ac, other) / determinant);
+    const Hit hit{glm::dot(ac, other) / determinant, glm::dot(from - a, across) / determinant,
+                  glm::dot(direction, other) / determinant};
+    if (hit.second < -1e-6 || hit.third < -1e-6 || hit.second + hit.third > 1.0 + 1e-6) continue;
+    if (hit.distance > (last ? last->second.distance : 0.0)) last = {{i, j, k}, hit};
   }
-  return farthest;
+  return last;
+}
+
+/// How far the mesh goes from a point in a direction, a unit vector.
+double reach(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
+  const auto last = last_hit(mesh, from, direction);
+  return last ? last->second.distance : 0.0;
 }
 
 float lowest(const Mesh& mesh) {
@@ -287,26 +302,15 @@ TEST_CASE("close-ups: a long row of axes, each on the first internode of the one
 
 namespace {
 
-/// Texture coordinates of the last triangle that a ray meets.
+/// Texture coordinates where a ray leaves the mesh.
 Vec2f outermost_uv(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
-  double farthest = 0.0;
-  Vec2f uv(0.0f);
-  for (const auto& [i, j, k] : mesh.triangles) {
-    const Vec3 a(mesh.positions[i]);
-    const Vec3 ab = Vec3(mesh.positions[j]) - a;
-    const Vec3 ac = Vec3(mesh.positions[k]) - a;
-    const Vec3 across = glm::cross(direction, ac);
-    const double determinant = glm::dot(ab, across);
-    if (std::abs(determinant) < 1e-15) continue;
-    const auto second = static_cast<float>(glm::dot(from - a, across) / determinant);
-    const Vec3 other = glm::cross(from - a, ab);
-    const auto third = static_cast<float>(glm::dot(direction, other) / determinant);
-    const double distance = glm::dot(ac, other) / determinant;
-    if (second < 0.0f || third < 0.0f || second + third > 1.0f || distance < farthest) continue;
-    farthest = distance;
-    uv = mesh.uvs[i] * (1.0f - second - third) + mesh.uvs[j] * second + mesh.uvs[k] * third;
-  }
-  return uv;
+  const auto last = last_hit(mesh, from, direction);
+  REQUIRE(last);
+  const auto& [corners, hit] = *last;
+  const auto second = static_cast<float>(hit.second);
+  const auto third = static_cast<float>(hit.third);
+  return mesh.uvs[corners[0]] * (1.0f - second - third) + mesh.uvs[corners[1]] * second +
+         mesh.uvs[corners[2]] * third;
 }
 
 }  // namespace
