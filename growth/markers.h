@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/bulk.h"
 #include "common/base/geometry.h"
 #include "common/config/layer.h"
 #include "growth/marker_cone.h"
