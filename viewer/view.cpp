@@ -90,7 +90,7 @@ bool is_drawing(const Workbench& bench) {
 /// What a driving program waits for. "TREE seat internodes draft|fine delay now": a tree is on show, so many
 /// milliseconds after the input that changed it, at so many seconds; "PICTURE seat fast|fine triangles
 /// milliseconds": it was drawn anew; "FRAME milliseconds": the window could not answer for so long; "READY":
-/// all trees are on show, and at rest.
+/// all trees are on show, and at rest after that.
 class Drive {
  public:
   /// After a frame, which began at that time.
@@ -99,6 +99,7 @@ class Drive {
     bench.report.flush();
     const double seconds = Window::now() - begin;
     if (seconds > kLongFrame) bench.report.say(fmt::format("FRAME {:.0f}", 1000.0 * seconds));
+    bool is_drawn_anew = false;
     bool is_settled = !bench.is_drawn_fast && ImGui::GetFrameCount() >= kFirstFrames;
     for (std::size_t index = 0; index < bench.seats.size(); ++index) {
       const Document& document = bench.seats[index]->document;
@@ -106,6 +107,7 @@ class Drive {
       const Pane& pane = bench.seats[index]->pane;
       if (product != nullptr && pane.drawn_count() != drawn_[index]) {
         drawn_[index] = pane.drawn_count();
+        is_drawn_anew = true;
         bench.report.say(fmt::format("PICTURE {} {} {} {:.1f}", seat_name(index),
                                      bench.is_drawn_fast ? "fast" : "fine", product->mesh.triangles.size(),
                                      1000.0 * pane.last_seconds()));
@@ -119,7 +121,7 @@ class Drive {
                                    product->skeleton.internode_count(), product->is_draft ? "draft" : "fine",
                                    1000.0 * delay, Window::now()));
     }
-    if (is_settled && !was_settled_) bench.report.say("READY");
+    if (is_settled && (!was_settled_ || is_drawn_anew)) bench.report.say("READY");
     was_settled_ = is_settled;
     if (const auto& now = bench.distances.values(); now != distances_ && !bench.distances.is_busy()) {
       bench.report.say(fmt::format("DISTANCES {:.4f}", fmt::join(*now, " ")));
