@@ -33,7 +33,7 @@ std::string command_of(const Trial& trial) {
 Outcome measured(const std::function<void()>& work) {
   using Clock = std::chrono::steady_clock;
   Outcome outcome;
-  outcome.bytes_at_start = double(process_memory().peak);
+  outcome.bytes_at_start = double(process_memory().now);
   const std::clock_t cpu_start = std::clock();
   const Clock::time_point start = Clock::now();
   work();
@@ -67,6 +67,7 @@ int answer_trial(std::span<char* const> arguments, const Performer& perform) {
   }
   Trial trial{.work = arguments[0], .threads = std::stoi(arguments[1])};
   for (const char* assignment : arguments.subspan(2)) trial.assignments.emplace_back(assignment);
+  drop_symbol_tables();
   const ThreadLimit limit(trial.threads);
   const Outcome outcome = perform(trial);
   fmt::print("{} {} {} {} {} {}\n", outcome.seconds, outcome.cpu_seconds, outcome.count,

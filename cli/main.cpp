@@ -10,6 +10,7 @@
 #include "cli/interrupt.h"
 #include "cli/text.h"
 #include "common/base/errors.h"
+#include "common/base/memory.h"
 #include "common/config/field.h"
 #include "common/config/provenance.h"
 #include "growth/engine.h"
@@ -118,6 +119,7 @@ int run(int argc, char** argv) {
 }  // namespace ramify::cli
 
 int main(int argc, char** argv) {
+  ramify::drop_symbol_tables();
   const int code = ramify::cli::run(argc, argv);
   // A full disk behind a redirected stdout must not pass for success.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -71,8 +71,8 @@ class Numbering {
 };
 
 /// Leaves out what stands in the holes.
-template <class T>
-void close_holes(std::vector<T>& values, const Numbering& numbering) {
+template <class Values>
+void close_holes(Values& values, const Numbering& numbering) {
   if (values.empty()) return;
   auto end = values.begin();
   for (const Run& run : numbering.runs()) {
@@ -84,8 +84,8 @@ void close_holes(std::vector<T>& values, const Numbering& numbering) {
 }
 
 /// Likewise, and puts `renewed` in place of the others.
-template <class T, class Renewed>
-void close_holes(std::vector<T>& values, const Numbering& numbering, const Renewed& renewed) {
+template <class Values, class Renewed>
+void close_holes(Values& values, const Numbering& numbering, const Renewed& renewed) {
   auto end = values.begin();
   for (const Run& run : numbering.runs())
     end = std::transform(values.begin() + run.begin, values.begin() + run.end, end, renewed);

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/bulk.h"
 #include "common/base/geometry.h"
+#include "common/base/large_pages.h"
 #include "growth/parameters.h"
 #include "growth/shadow_grid.h"
 
@@ -38,16 +40,16 @@ struct Bud {
 struct Plant {
   // Nodes; 0 is the root
   std::vector<Vec3> position;
-  std::vector<std::uint32_t> parent;      // kNone: the root, or cut away
-  std::vector<std::uint32_t> axis;        // its place in `axes`
-  std::vector<std::uint8_t> founds_axis;  // 1: the first internode of a lateral axis
-  std::vector<std::uint16_t> birth_step;  // 0: the root
-  std::vector<std::uint32_t> lost_tips;   // tips that children cut away had ever borne: the wood stays thick
-  std::vector<std::uint32_t> id;          // how many nodes were made before it; only where a history is kept
+  std::vector<std::uint32_t> parent;          // kNone: the root, or cut away
+  UnwrittenVector<std::uint32_t> axis;        // its place in `axes`
+  UnwrittenVector<std::uint8_t> founds_axis;  // 1: the first internode of a lateral axis
+  UnwrittenVector<std::uint16_t> birth_step;  // 0: the root
+  std::vector<std::uint32_t> lost_tips;  // tips that children cut away had ever borne: the wood stays thick
+  std::vector<std::uint32_t> id;         // how many nodes were made before it; only where a history is kept
 
-  std::vector<Axis> axes;
-  std::vector<Bud> buds;             // by node; those that died in a step stay to its end
-  std::vector<Vec3f> bud_direction;  // of each, unit: default direction of its first metamer
+  UnwrittenVector<Axis> axes;
+  UnwrittenVector<Bud> buds;             // by node; those that died in a step stay to its end
+  UnwrittenVector<Vec3f> bud_direction;  // of each, unit: default direction of its first metamer
 
   std::uint32_t axes_founded = 0;  // ever, the trunk too
   std::uint32_t cut_nodes = 0;     // holes in the arrays
@@ -59,20 +61,25 @@ struct Plant {
 
 /// Room for so many more values. Much of it once there are many, and by more than doubling: each time a large
 /// array moves, the old one and the new one are both in memory, and what it leaves is a hole in the heap,
-/// while room that is never used takes none. (Small trees get little: there may be thousands of them.)
-template <class T>
-void make_room(std::vector<T>& values, std::size_t more) {
+/// while room that is never used takes none. (Small trees get little: there may be thousands of them.) An
+/// array that fills a quarter of a large page gets such: what hangs together in a tree lies anywhere in it.
+template <class T, class Allocator>
+void make_room(std::vector<T, Allocator>& values, std::size_t more) {
   constexpr std::size_t kGrowth = 4;
   constexpr std::size_t kMany = 1 << 14;
   constexpr std::size_t kLeastOfMany = 1 << 20;
+  constexpr std::size_t kLarge = kLargePage / sizeof(T) / 4;
   const std::size_t wanted = values.size() + more;
-  if (values.capacity() >= wanted) return;
-  values.reserve(wanted < kMany ? kGrowth * wanted : std::max(kLeastOfMany, kGrowth * wanted));
+  const bool moves = values.capacity() < wanted;
+  if (moves) values.reserve(wanted < kMany ? kGrowth * wanted : std::max(kLeastOfMany, kGrowth * wanted));
+  if (wanted >= kLarge && (moves || values.size() < kLarge)) {
+    prefer_large_pages(values.data(), values.capacity() * sizeof(T), values.size() * sizeof(T));
+  }
 }
 
 /// std::vector::resize() with make_room().
-template <class T>
-void set_size(std::vector<T>& values, std::size_t size) {
+template <class T, class Allocator>
+void set_size(std::vector<T, Allocator>& values, std::size_t size) {
   if (size > values.size()) make_room(values, size - values.size());
   values.resize(size);
 }

@@ -1,13 +1,14 @@
 #include "growth/tree_skeleton.h"
 
+#include "common/base/parallel.h"
 #include "common/skeleton/passes.h"
 
 namespace ramify::growth {
 namespace {
 
-template <class T>
-void release(std::vector<T>& values) {
-  std::vector<T>().swap(values);
+template <class Values>
+void release(Values& values) {
+  Values().swap(values);
 }
 
 /// Sums of a value of buds over each node's subtree, a node of the skeleton: with a history 0 for shed ones.
@@ -57,9 +58,9 @@ Skeleton skeleton_of(GrowingTree tree, const Parameters& world) {
   compact(plant, 0.0);
 
   Skeleton skeleton;
-  skeleton.light = skeleton_sums(tree, tree.light);
+  side_by_side([&] { skeleton.light = skeleton_sums(tree, tree.light); },
+               [&] { skeleton.vigour = skeleton_sums(tree, tree.vigour); });
   release(tree.light);
-  skeleton.vigour = skeleton_sums(tree, tree.vigour);
   release(tree.vigour);
   release(plant.buds);
   release(plant.bud_direction);

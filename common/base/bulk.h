@@ -14,8 +14,21 @@ namespace ramify {
 void* allocate_bulk(std::size_t bytes);
 void free_bulk(void* memory);
 
+/// Constructs like any allocator, but for what resize() adds: that is left as it is, to be written by whoever
+/// asked for it.
+struct LeavesUnwritten {
+  template <class U>
+  void construct(U*) {
+    static_assert(std::is_trivially_copyable_v<U>);
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+
 template <class T>
-struct BulkAllocator {
+struct BulkAllocator : LeavesUnwritten {
   using value_type = T;
 
   BulkAllocator() = default;
@@ -25,18 +38,26 @@ struct BulkAllocator {
   T* allocate(std::size_t count) { return static_cast<T*>(allocate_bulk(count * sizeof(T))); }
   void deallocate(T* memory, std::size_t) { free_bulk(memory); }
 
-  /// What resize() adds is left as it is, to be written by whoever asked for it.
-  template <class U>
-  void construct(U* place) {
-    ::new (static_cast<void*>(place)) U;
-  }
-  template <class U, class... Arguments>
-  void construct(U* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
-  }
-
   friend bool operator==(const BulkAllocator&, const BulkAllocator&) { return true; }
 };
+
+template <class T>
+struct UnwrittenAllocator : LeavesUnwritten {
+  using value_type = T;
+
+  UnwrittenAllocator() = default;
+  template <class U>
+  UnwrittenAllocator(const UnwrittenAllocator<U>&) {}
+
+  T* allocate(std::size_t count) { return std::allocator<T>().allocate(count); }
+  void deallocate(T* memory, std::size_t count) { std::allocator<T>().deallocate(memory, count); }
+
+  friend bool operator==(const UnwrittenAllocator&, const UnwrittenAllocator&) { return true; }
+};
+
+/// A vector whose resize(n) does not write the new elements.
+template <class T>
+using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;
 
 /// A vector whose resize(n) does not write the new elements.
 template <class T>

@@ -1,5 +1,11 @@
 #include "common/base/memory.h"
 
+#ifdef __linux__
+#include <link.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
+
 #include <fstream>
 #include <string>
 
@@ -17,7 +23,28 @@ std::uint64_t kernel_number(const std::string& file, const std::string& name) {
   return 0;
 }
 
+#ifdef __linux__
+/// Drops what was loaded of the parts of a library that nobody may write to or run.
+int drop_constants(dl_phdr_info* library, std::size_t, void*) {
+  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  for (int i = 0; i < library->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& part = library->dlpi_phdr[i];
+    if (part.p_type != PT_LOAD || (part.p_flags & (PF_W | PF_X)) != 0) continue;
+    const std::uintptr_t begin = (library->dlpi_addr + part.p_vaddr + page - 1) / page * page;
+    const std::uintptr_t end = (library->dlpi_addr + part.p_vaddr + part.p_memsz) / page * page;
+    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+  }
+  return 0;
+}
+#endif
+
 }  // namespace
+
+void drop_symbol_tables() {
+#ifdef __linux__
+  dl_iterate_phdr(drop_constants, nullptr);
+#endif
+}
 
 ProcessMemory process_memory(int process) {
   const std::string file =

@@ -16,6 +16,10 @@ struct ProcessMemory {
 /// begins with the size of the process that started it. Zeros if there is no such process; 0 is this one.
 ProcessMemory process_memory(int process = 0);
 
+/// Gives memory back that only the start of the program needed: the symbol tables of its libraries, which
+/// with OpenVDB take 27 MB. What is asked for again comes from the files anew. Linux.
+void drop_symbol_tables();
+
 /// What can be taken without swapping (MemAvailable), bytes.
 std::uint64_t available_memory();
 

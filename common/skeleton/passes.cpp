@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "common/base/errors.h"
 
@@ -92,16 +93,23 @@ void assign_pipe_diameters(Skeleton& skeleton, const PipeModel& model,
     throw InputError(fmt::format("pipe model: exponent {} (must be greater than 0)", model.exponent));
   }
   // In units of a tip's d^n the sums are counts of the tips ever borne: whole numbers, so exact in any order.
-  std::vector<std::uint64_t> tips(lost_tips.begin(), lost_tips.end());
+  std::vector<std::uint32_t> tips = lost_tips;
   tips.resize(skeleton.node_count(), 0);
   for (std::size_t node = skeleton.node_count(); node-- > 0;) {
-    tips[node] = std::max<std::uint64_t>(tips[node], 1);
+    tips[node] = std::max<std::uint32_t>(tips[node], 1);
     if (!skeleton.is_root(node)) tips[skeleton.parent[node]] += tips[node];
   }
+  const auto diameter_of = [&](double count) {
+    return model.tip_diameter * std::pow(count, 1.0 / model.exponent);
+  };
+  // Most nodes bear few.
+  std::array<double, 256> diameter_of_few;
+  for (std::size_t count = 0; count < diameter_of_few.size(); ++count)
+    diameter_of_few[count] = diameter_of(double(count));
   skeleton.diameter.resize(skeleton.node_count());
   for (std::size_t node = 0; node < skeleton.node_count(); ++node) {
-    skeleton.diameter[node] =
-        model.tip_diameter * std::pow(static_cast<double>(tips[node]), 1.0 / model.exponent);
+    const std::uint32_t count = tips[node];
+    skeleton.diameter[node] = count < diameter_of_few.size() ? diameter_of_few[count] : diameter_of(count);
   }
   skeleton.pipe_model = model;
 }

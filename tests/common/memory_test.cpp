@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <fstream>
 #include <numeric>
+#include <regex>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,37 @@ TEST_CASE("memory: a process fits if all of them may grow to what is expected") 
   CHECK(fits({0, 0}, 300, 1000));
   CHECK_FALSE(fits({0, 0}, 301, 1000));
   CHECK(fits({800, 900}, 300, 400));  // those that have more already take no further
+}
+
+TEST_CASE("memory: symbol tables are dropped, and come back where they are needed") {
+  const std::uint64_t before = process_memory().now;
+  drop_symbol_tables();
+  CHECK(process_memory().now + 10'000'000 < before);  // OpenVDB's alone take more
+  // Both look things up in what was dropped.
+  CHECK_THROWS_AS(std::stoi("no number"), std::invalid_argument);
+  CHECK(std::regex_match("a1", std::regex("[a-z][0-9]")));
+}
+
+TEST_CASE("memory: large pages are asked for inside any array, used or not") {
+  // Neither end is where a large page begins.
+  std::vector<std::uint8_t> values(5 * kLargePage + 12345, 1);
+  std::iota(values.begin(), values.end(), std::uint8_t{0});
+  for (const std::size_t used : {std::size_t{0}, std::size_t{1}, 3 * kLargePage, values.size()})
+    prefer_large_pages(values.data(), values.size(), used);
+  prefer_large_pages(values.data() + 1, kLargePage / 2);  // holds none
+  for (std::size_t i = 0; i < values.size(); ++i) REQUIRE(values[i] == static_cast<std::uint8_t>(i));
+}
+
+TEST_CASE("memory: an unwritten vector keeps what it has when it grows") {
+  UnwrittenVector<std::uint32_t> values{1, 2, 3};
+  values.resize(1'000'000);
+  values[999'999] = 4;
+  values.push_back(5);
+  CHECK(values[0] == 1);
+  CHECK(values[2] == 3);
+  CHECK(values[999'999] == 4);
+  CHECK(values.back() == 5);
+  CHECK(UnwrittenVector<std::uint32_t>(3, 7) == UnwrittenVector<std::uint32_t>{7, 7, 7});
 }
 
 TEST_CASE("memory: what is gathered in a large page stays as it is") {

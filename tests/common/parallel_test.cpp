@@ -34,6 +34,13 @@ TEST_CASE("parallel: every index is visited once") {
   parallel_for(0, 1, [&](std::size_t, std::size_t) { FAIL("nothing to do"); });
 }
 
+TEST_CASE("parallel: things side by side are each done once, on one thread in their order") {
+  std::vector<int> done;
+  const ThreadLimit limit(1);
+  side_by_side([&] { done.push_back(1); }, [&] { done.push_back(2); }, [&] { done.push_back(3); });
+  CHECK(done == std::vector<int>{1, 2, 3});
+}
+
 TEST_CASE("parallel: a limit of one thread is kept, and gone with the limit") {
   if (std::thread::hardware_concurrency() > 1) CHECK(threads_used() > 1);
   {
