@@ -21,7 +21,7 @@ void for_new_values(std::vector<T>& values, std::size_t size) {
 /// Sets the sums to what the buds at each node have. On all threads: buds stand by node, and each task takes
 /// all buds of its nodes.
 void sum_buds(const Plant& plant, const std::vector<double>& light, std::vector<Sides>& sums) {
-  const std::vector<Bud>& buds = plant.buds;
+  const auto& buds = plant.buds;
   if (buds.empty()) std::fill(sums.begin(), sums.end(), Sides{});
   const auto first_at_node = [&](std::size_t i) {
     while (i > 0 && i < buds.size() && buds[i].node == buds[i - 1].node) ++i;
@@ -58,18 +58,24 @@ void sum_light(const Plant& plant, const std::vector<double>& light, LightSums& 
   const std::size_t count = plant.node_count();
   for_new_values(sums.light, count);
   for_new_values(sums.internodes, count);
-  sum_buds(plant, light, sums.light);
-
-  std::fill(sums.internodes.begin(), sums.internodes.end(), 0);
   const std::span parent(plant.parent);
-  const std::span founds_axis(plant.founds_axis);
-  const std::span of_light(sums.light);
-  const std::span internodes(sums.internodes);
-  for (std::size_t node = count; node-- > 1;) {
-    if (parent[node] == kNone) continue;
-    of_light[parent[node]][founds_axis[node]] += of_light[node][kMain] + of_light[node][kLateral];
-    internodes[parent[node]] += ++internodes[node];
-  }
+  const auto gather_light = [&] {
+    sum_buds(plant, light, sums.light);
+    const std::span founds_axis(plant.founds_axis);
+    const std::span of_light(sums.light);
+    for (std::size_t node = count; node-- > 1;) {
+      if (parent[node] == kNone) continue;
+      of_light[parent[node]][founds_axis[node]] += of_light[node][kMain] + of_light[node][kLateral];
+    }
+  };
+  const auto count_internodes = [&] {
+    std::fill(sums.internodes.begin(), sums.internodes.end(), 0);
+    const std::span internodes(sums.internodes);
+    for (std::size_t node = count; node-- > 1;) {
+      if (parent[node] != kNone) internodes[parent[node]] += ++internodes[node];
+    }
+  };
+  side_by_side(gather_light, count_internodes);
 }
 
 std::vector<std::uint32_t> bud_counts(const Plant& plant) {

@@ -54,6 +54,12 @@ class ShadowGrid {
   /// For quick reading: valid as long as the grid.
   Site site_of(const Coord& voxel);
 
+  /// Likewise; 0 where no shadow has come near the voxel and nobody has asked for its site.
+  Site known_site_of(const Coord& voxel) const {
+    const std::uint32_t leaf = leaves_.find(leaf_of(voxel));
+    return leaf == 0 ? 0 : leaf * kLeafSize + place_in_leaf(voxel);
+  }
+
   /// What a caster adds to its own voxel.
   Shadow own_shadow() const { return stencil_.own_shadow(); }
 

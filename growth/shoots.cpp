@@ -215,6 +215,7 @@ std::vector<Shoot> ShootPlanner::next(std::size_t most) {
     Shoot shoot;
     shoot.bud = picked;
     shoot.planned = static_cast<std::uint32_t>(count);
+    shoot.is_terminal = bud.is_terminal;
     if (!bud.is_terminal) shoot.axis_id = next_axis_++;
     shoot.metamer_length = length_ * capped / count;
     shoots.push_back(shoot);

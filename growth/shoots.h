@@ -16,6 +16,7 @@ struct Shoot {
   std::uint32_t bud = 0;
   std::uint32_t planned = 0;  // metamers
   std::uint32_t made = 0;     // fewer where something is in the way
+  bool is_terminal = false;   // it continues the axis of its bud; otherwise it founds one
   std::uint32_t axis_id = 0;  // of the axis it founds or, once traced, continues
   double metamer_length = 0.0;
   std::size_t first = 0;      // its start's slot, once traced; those of its metamers follow
@@ -27,9 +28,9 @@ struct Shoot {
 /// metamers.
 struct Traces {
   std::size_t buds_per_node = 1;
-  std::vector<Vec3> position;
-  std::vector<Coord> voxel;     // light
-  std::vector<Vec3f> axillary;  // default directions of its axillary buds, buds_per_node a slot
+  UnwrittenVector<Vec3> position;
+  UnwrittenVector<Coord> voxel;     // light
+  UnwrittenVector<Vec3f> axillary;  // default directions of its axillary buds, buds_per_node a slot
 };
 
 /// How many metamers the buds will make with this vigour; a number that may be beyond all memory.

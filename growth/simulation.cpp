@@ -38,14 +38,6 @@ Coord caster_of(const Plant& plant, std::uint32_t node, const Parameters& world,
   return shadow.voxel_of(plant.position[casts_from_start ? plant.parent[node] : node]);
 }
 
-/// Does two things of which neither needs the other.
-template <class First, class Second>
-void side_by_side(const First& first, const Second& second) {
-  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) i == 0 ? first() : second();
-  });
-}
-
 void allocate(GrowingTree& tree, int step) {
   switch (tree.place.allocation) {
     case Allocation::priority:

@@ -18,11 +18,17 @@ void grow(Plant& plant, const Parameters& parameters, const std::vector<double>&
   Barriers barriers(parameters);
   barriers.set_step(step);
   const std::vector<Vec3f> space;
-  std::vector<Shoot> shoots = ShootPlanner(plant, vigour, parameters, step).next(1000);
+  std::vector<Shoot> shoots = ShootPlanner(plant, vigour, parameters, step).next(100'000);
   const Guides guides{parameters, parameters, parameters.seed, barriers, field, space};
   const Traces traces = trace_shoots(shoots, plant, guides, step);
   CasterChanges changes;
   build_shoots(plant, shoots, traces, parameters, parameters, shadow, step, changes);
+  // The shadow had no leaf before.
+  const auto is_settled = [&](const Bud& bud) {
+    return bud.is_dead() || bud.birth_step != step ||
+           bud.site == shadow.site_of(shadow.voxel_of(plant.position[bud.node]));
+  };
+  CHECK(std::ranges::all_of(plant.buds, is_settled));
   compact(plant, 0.0);
 }
 
@@ -37,6 +43,36 @@ Plant grown(const Parameters& parameters, double vigour) {
   return plant;
 }
 
+/// Every node, axis and bud has been written, and says what its neighbours say.
+void check_whole(const Plant& plant) {
+  std::vector<std::uint32_t> nodes_of_axis(plant.axes.size(), 0);
+  for (std::uint32_t node = 0; node < plant.node_count(); ++node) {
+    const Axis& axis = plant.axes.at(plant.axis[node]);
+    ++nodes_of_axis[plant.axis[node]];
+    const bool is_first = axis.first == node;
+    if (node == 0) continue;
+    REQUIRE(plant.parent[node] < node);
+    REQUIRE(bool(plant.founds_axis[node]) == is_first);
+    if (is_first) REQUIRE(axis.order == plant.axes[plant.axis[plant.parent[node]]].order + 1);
+    if (!is_first) REQUIRE(plant.axis[plant.parent[node]] == plant.axis[node]);
+    REQUIRE(plant.birth_step[node] >= std::max<int>(1, plant.birth_step[plant.parent[node]]));
+    REQUIRE(glm::length(plant.position[node] - plant.position[plant.parent[node]]) > 0.0);
+  }
+  std::vector<int> tips_of_axis(plant.axes.size(), 0);
+  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
+    const Bud& bud = plant.buds[i];
+    REQUIRE(bud.node < plant.node_count());
+    REQUIRE(glm::length(plant.bud_direction[i]) == Approx(1.0f));
+    if (bud.is_terminal) ++tips_of_axis[plant.axis[bud.node]];
+  }
+  for (std::size_t i = 0; i < plant.axes.size(); ++i) {
+    REQUIRE(plant.axes[i].node_count == nodes_of_axis[i]);
+    REQUIRE(glm::length(plant.axes[i].reference) == Approx(1.0f));
+    REQUIRE(tips_of_axis[i] == 1);
+    if (i > 0) REQUIRE(plant.axes[i].id > plant.axes[i - 1].id);
+  }
+}
+
 std::size_t axillary_buds(const Plant& plant) {
   std::size_t count = 0;
   for (const Bud& bud : plant.buds) count += !bud.is_terminal;
@@ -49,6 +85,30 @@ TEST_CASE("shoots: a bud with v < 1 rests, one a rounding error below grows") {
   CHECK(grown(Parameters{}, 0.999).internode_count() == 0);
   CHECK(grown(Parameters{}, 0.999).buds.size() == 1);
   CHECK(grown(Parameters{}, 1.0 - 1e-10).internode_count() == 1);
+}
+
+TEST_CASE("shoots: thousands at once make whole plants, whatever buds a tip has") {
+  for (const Phyllotaxis phyllotaxis : {Phyllotaxis::spiral, Phyllotaxis::opposite, Phyllotaxis::whorled}) {
+    for (const TipBud tip_bud : {TipBud::both, TipBud::terminal}) {
+      for (const bool sympodial : {false, true}) {
+        Parameters parameters;
+        parameters.phyllotaxis = phyllotaxis;
+        parameters.tip_bud = tip_bud;
+        parameters.sympodial = sympodial;
+        parameters.ground = false;  // in whose way buds die
+        Plant plant = seedling(parameters.planted().front(), 0);
+        for (int step = 1; step < 30 && plant.buds.size() < 3000; ++step) {
+          // Some rest, some make one metamer and some two.
+          std::vector<double> vigour(plant.buds.size());
+          for (std::size_t i = 0; i < vigour.size(); ++i) vigour[i] = double((i + 1) % 3) + 0.5;
+          grow(plant, parameters, vigour, step);
+        }
+        INFO("phyllotaxis " << int(phyllotaxis) << ", tip_bud " << int(tip_bud) << ", sympodial "
+                            << sympodial);
+        check_whole(plant);
+      }
+    }
+  }
 }
 
 TEST_CASE("shoots: v makes floor(v) metamers of length v / floor(v)") {
