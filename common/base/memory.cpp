@@ -24,11 +24,28 @@ std::uint64_t kernel_number(const std::string& file, const std::string& name) {
 }
 
 #ifdef __linux__
+std::span<const ElfW(Phdr)> parts_of(const dl_phdr_info& library) {
+  return {library.dlpi_phdr, library.dlpi_phnum};
+}
+
+/// Whether addresses were written into constants when it was loaded: those are not in its file.
+bool has_altered_constants(const dl_phdr_info& library) {
+  for (const ElfW(Phdr) & part : parts_of(library)) {
+    if (part.p_type != PT_DYNAMIC) continue;
+    for (auto entry = reinterpret_cast<const ElfW(Dyn)*>(library.dlpi_addr + part.p_vaddr);
+         entry->d_tag != DT_NULL; ++entry) {
+      if (entry->d_tag == DT_TEXTREL) return true;
+      if (entry->d_tag == DT_FLAGS && (entry->d_un.d_val & DF_TEXTREL) != 0) return true;
+    }
+  }
+  return false;
+}
+
 /// Drops what was loaded of the parts of a library that nobody may write to or run.
 int drop_constants(dl_phdr_info* library, std::size_t, void*) {
   static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  for (int i = 0; i < library->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& part = library->dlpi_phdr[i];
+  if (has_altered_constants(*library)) return 0;
+  for (const ElfW(Phdr) & part : parts_of(*library)) {
     if (part.p_type != PT_LOAD || (part.p_flags & (PF_W | PF_X)) != 0) continue;
     const std::uintptr_t begin = (library->dlpi_addr + part.p_vaddr + page - 1) / page * page;
     const std::uintptr_t end = (library->dlpi_addr + part.p_vaddr + part.p_memsz) / page * page;
