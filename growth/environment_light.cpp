@@ -1,6 +1,8 @@
 #include "growth/environment_light.h"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 #include "common/base/parallel.h"
 
@@ -13,6 +15,13 @@ constexpr double kConeSlack = 1e-6;
 
 constexpr std::size_t kBudsPerTask = 4096;
 constexpr std::size_t kReadAhead = 16;
+
+/// The first of so many values; those before are lost.
+template <class T>
+T* with_room(std::vector<T>& values, std::size_t count) {
+  if (values.size() < count) values.resize(2 * count);
+  return values.data();
+}
 
 }  // namespace
 
@@ -77,11 +86,9 @@ bool LightSeeker::is_in_cone(double square, double along) const {
          (is_wide ? (along >= 0.0) | is_near_axis : (along >= 0.0) & is_near_axis);
 }
 
-/// The mean direction of the least shaded voxels whose centres lie within the cone, but for the voxel of
-/// `apex` itself; `axis` where there are none or they cancel out. In units of voxels.
-Vec3 LightSeeker::darkest_free(const Vec3& apex, const Vec3& axis) const {
-  const Vec3 place = apex / field_.grid().voxel_size();
-  const Coord own = field_.grid().voxel_of(apex);
+/// The voxels whose centres lie within the cone, but for `own`, which holds the apex; `place` is that in
+/// units of voxels. Valid until the thread asks again.
+std::span<Coord> LightSeeker::find_in_cone(const Vec3& place, const Coord& own, const Vec3& axis) const {
   // The box around the cone and the ball's cap that closes it.
   Coord low;
   Coord high;
@@ -97,9 +104,8 @@ Vec3 LightSeeker::darkest_free(const Vec3& apex, const Vec3& axis) const {
   // Gathered without a branch on each voxel: whether it is in the cone is hard to foretell.
   thread_local std::vector<Coord> in_cone;
   const Coord size = glm::max(high - low + 1, Coord(0));
-  in_cone.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                     static_cast<std::size_t>(size.z) +
-                 1);
+  Coord* const voxels =
+      with_room(in_cone, std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z) + 1);
   std::size_t count = 0;
   for (int x = low.x; x <= high.x; ++x) {
     const double dx = x - place.x;
@@ -108,29 +114,41 @@ Vec3 LightSeeker::darkest_free(const Vec3& apex, const Vec3& axis) const {
       const double square_xy = dx * dx + dy * dy;
       if (square_xy > radius_ * radius_) continue;
       const double along_xy = dx * axis.x + dy * axis.y;
+      const bool is_own_column = (x == own.x) & (y == own.y);
       for (int z = low.z; z <= high.z; ++z) {
         const double dz = z - place.z;
-        in_cone[count] = {x, y, z};
-        count += is_in_cone(square_xy + dz * dz, along_xy + dz * axis.z);
+        const bool is_own = is_own_column & (z == own.z);
+        voxels[count] = {x, y, z};
+        count += is_in_cone(square_xy + dz * dz, along_xy + dz * axis.z) & !is_own;
       }
     }
   }
+  return {voxels, count};
+}
 
+/// The mean direction of the least shaded voxels whose centres lie within the cone, but for the voxel of
+/// `apex` itself; `axis` where there are none or they cancel out. In units of voxels.
+Vec3 LightSeeker::darkest_free(const Vec3& apex, const Vec3& axis) const {
+  const Vec3 place = apex / field_.grid().voxel_size();
+  const std::span<Coord> voxels = find_in_cone(place, field_.grid().voxel_of(apex), axis);
+
+  thread_local std::vector<Shadow> shade_of_each;
+  Shadow* const shades = with_room(shade_of_each, voxels.size());
   LeafReader reader = field_.grid().reader();
   Shadow least = std::numeric_limits<Shadow>::max();
-  Vec3 sum(0.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Coord& voxel = in_cone[i];
-    const Shadow shade = field_.shade(voxel, reader.at(voxel));
-    if (shade > least || voxel == own) continue;
-    if (shade < least) {
-      least = shade;
-      sum = Vec3(0.0);
-    } else if (tie_ == Tie::first) {
-      continue;
-    }
-    sum += glm::normalize(Vec3(voxel) - place);
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    shades[i] = field_.shade(voxels[i], reader.at(voxels[i]));
+    least = std::min(least, shades[i]);
   }
+  // Which have the least is as hard to foretell.
+  std::size_t ties = 0;
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    voxels[ties] = voxels[i];
+    ties += shades[i] == least;
+  }
+  if (tie_ == Tie::first) ties = std::min<std::size_t>(ties, 1);
+  Vec3 sum(0.0);
+  for (const Coord& voxel : voxels.first(ties)) sum += glm::normalize(Vec3(voxel) - place);
   return normalized_or(sum, axis);
 }
 

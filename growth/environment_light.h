@@ -2,6 +2,7 @@
 // Palubicki et al. 2009, 4.1.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "growth/light_field.h"
@@ -36,6 +37,7 @@ class LightSeeker {
   /// Whether a voxel is near enough, `square` being the square of its distance, and within the cone, `along`
   /// being its place along the axis; voxels.
   bool is_in_cone(double square, double along) const;
+  std::span<Coord> find_in_cone(const Vec3& place, const Coord& own, const Vec3& axis) const;
   Vec3 darkest_free(const Vec3& apex, const Vec3& axis) const;
   Vec3 gradient(const Vec3& apex) const;
 

@@ -364,10 +364,11 @@ void MarkerGrid::close_holes(std::uint32_t block) {
   std::uint32_t place = kept;
   for (std::uint32_t slice = 0; slice < kBlock; ++slice) {
     for (const std::uint32_t end = begin[slice + 1]; place < end; ++place) {
-      x_[kept] = x_[place];
+      const float x = x_[place];
+      x_[kept] = x;
       y_[kept] = y_[place];
       z_[kept] = z_[place];
-      kept += x_[place] != kNowhere;
+      kept += x < kNowhere;
     }
     begin[slice + 1] = kept;
   }
