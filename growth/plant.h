@@ -38,7 +38,7 @@ struct Bud {
 };
 
 struct Plant {
-  // Nodes; 0 is the root
+  // Nodes; 0 is the root. What the skeleton takes over stands in plain vectors.
   std::vector<Vec3> position;
   std::vector<std::uint32_t> parent;          // kNone: the root, or cut away
   UnwrittenVector<std::uint32_t> axis;        // its place in `axes`
