@@ -211,7 +211,6 @@ void LeafField::blend(const Blend& fork, Batch& batch, bool with_slopes) const {
     batch.slope_x[i] = std::lerp(b.slope_x[i], a.slope_x[i], of_a);
     batch.slope_y[i] = std::lerp(b.slope_y[i], a.slope_y[i], of_a);
     batch.slope_z[i] = std::lerp(b.slope_z[i], a.slope_z[i], of_a);
-    batch.internode[i] = is_a ? a.internode[i] : b.internode[i];
   }
 }
 

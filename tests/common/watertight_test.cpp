@@ -1,7 +1,9 @@
 #include "common/mesh/watertight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -57,6 +59,17 @@ std::string error_of(const Skeleton& skeleton, const MesherOptions& options) {
     return error.what();
   }
   return "no error";
+}
+
+/// The axes of the vertices at each place.
+std::map<std::array<float, 3>, std::set<std::uint32_t>> axes_of_places(const Skeleton& tree,
+                                                                       const Mesh& mesh) {
+  std::map<std::array<float, 3>, std::set<std::uint32_t>> axes;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3f& p = mesh.positions[v];
+    axes[{p.x, p.y, p.z}].insert(tree.axis[mesh.internodes[v]]);
+  }
+  return axes;
 }
 
 void check_closed(const Mesh& as_made, std::size_t pieces) {
@@ -363,14 +376,9 @@ TEST_CASE("watertight: the bark of two axes meets where both are equally near") 
   const RoundCone below = round_cone({0, 0, 0}, 0.2, {0, 1, 0}, 0.2);
   const RoundCone above = round_cone({0, 1, 0}, 0.2, {0, 2, 0}, 0.2);
   const RoundCone lateral = round_cone({0, 1, 0}, 0.15, {1, 1.8, 0}, 0.15);
-  std::map<std::array<float, 3>, std::set<std::uint32_t>> axes;  // of the vertices at each place
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3f& p = mesh.positions[v];
-    axes[{p.x, p.y, p.z}].insert(tree.axis[mesh.internodes[v]]);
-  }
   std::size_t count = 0;
   double sum = 0.0;
-  for (const auto& [place, there] : axes) {
+  for (const auto& [place, there] : axes_of_places(tree, mesh)) {
     if (there.size() < 2) continue;
     const Vec3 p(place[0], place[1], place[2]);
     const double apart = std::abs(lateral.distance(p) - std::min(below.distance(p), above.distance(p)));
@@ -380,6 +388,41 @@ TEST_CASE("watertight: the bark of two axes meets where both are equally near") 
   }
   CHECK(count > 40);
   CHECK(sum / static_cast<double>(count) < 0.05 * voxel_size);
+}
+
+TEST_CASE("watertight: where several forks blend the bark is that of the nearest wood") {
+  const double voxel_size = 0.01;
+  const auto direction = [](double lean_deg, double z) {
+    return Vec3(std::sin(radians(lean_deg)), std::cos(radians(lean_deg)), z);
+  };
+  for (const double lean_deg : {20.0, 35.0, 50.0, 65.0}) {
+    Skeleton tree;
+    add_node(tree, {0, 0, 0}, kNoParent, 0.3);
+    add_node(tree, {0, 0.5, 0}, 0, 0.3);
+    add_node(tree, {0, 1, 0}, 1, 0.28);
+    add_node(tree, tree.position[1] + 0.3 * direction(lean_deg, 0.1), 1, 0.26);
+    add_node(tree, tree.position[1] + 0.5 * direction(-lean_deg, 0.3), 1, 0.24);
+    add_node(tree, tree.position[3] + 0.5 * direction(lean_deg, 1.0), 3, 0.2);
+    add_node(tree, tree.position[3] + 0.5 * direction(-lean_deg, 0.4), 3, 0.2);
+    tree.axis = {0, 0, 0, 1, 2, 1, 3};
+    const Mesh mesh = watertight(tree, {.voxel_size = voxel_size});
+    double farther = 0.0;
+    for (const auto& [place, there] : axes_of_places(tree, mesh)) {
+      if (there.size() > 1) continue;  // on a border
+      const Vec3 p(place[0], place[1], place[2]);
+      std::array<double, 4> distances;  // from each axis
+      distances.fill(std::numeric_limits<double>::infinity());
+      for (std::size_t node = 1; node < tree.node_count(); ++node) {
+        const RoundCone cone = round_cone(tree.position[tree.parent[node]], tree.start_radius(node),
+                                          tree.position[node], 0.5 * tree.diameter[node]);
+        double& least = distances[tree.axis[node]];
+        least = std::min(least, cone.distance(p));
+      }
+      farther = std::max(farther, distances[*there.begin()] - *std::ranges::min_element(distances));
+    }
+    INFO(lean_deg << " degrees");
+    CHECK(farther < 0.75 * voxel_size);
+  }
 }
 
 TEST_CASE("watertight: coarser levels and budgets have fewer triangles and are as closed") {
