@@ -18,6 +18,9 @@ constexpr double kStanding = 0.5;
 // ground with its first internode: little of what lies would be left.
 constexpr double kLying = 0.2;
 
+// Cosine of the angle to its first cone up to which a part of an axis is straight.
+constexpr double kStraight = 0.97;
+
 /// Who follows whom on an axis, and the laterals of each node, among the internodes kept.
 struct Branching {
   std::vector<std::uint32_t> continuation;
@@ -83,16 +86,10 @@ class ForkFinder {
     for (std::size_t i = 0; i < laterals.size(); ++i) {
       const double radius = skeleton_.start_radius(laterals[i]);
       ForkBlend fork = empty_fork(node, radius, 0.5 * skeleton_.diameter[node]);
-      fork.cones = cones_upwards(laterals[i], fork);
-      fork.others = cones_through(node, fork);
-      cut(fork);
-      if (!fork.others.empty()) forks.push_back(std::move(fork));
+      add_parts(fork, cones_upwards(laterals[i], fork), cones_through(node, fork), forks);
       for (std::size_t j = 0; j < i; ++j) {
         ForkBlend sides = empty_fork(node, radius, skeleton_.start_radius(laterals[j]));
-        sides.cones = cones_upwards(laterals[i], sides);
-        sides.others = cones_upwards(laterals[j], sides);
-        cut(sides);
-        forks.push_back(std::move(sides));
+        add_parts(sides, cones_upwards(laterals[i], sides), cones_upwards(laterals[j], sides), forks);
       }
     }
   }
@@ -104,6 +101,35 @@ class ForkFinder {
     fork.width = blend_ * std::min(radius, other_radius);
     fork.zone = kZone * (std::max(radius, other_radius) + fork.width);
     return fork;
+  }
+
+  /// Each straight part of the one axis blends with each of the other. How far they do depends on the angle
+  /// between their surfaces: if the nearest cones alone blended, it would jump on the inner side of a bend,
+  /// where another cone becomes the nearest, and leave a step in the surface.
+  void add_parts(ForkBlend fork, const std::vector<std::uint32_t>& cones,
+                 const std::vector<std::uint32_t>& others, std::vector<ForkBlend>& forks) const {
+    fork.cones = cones;
+    fork.others = others;
+    cut(fork);
+    const std::vector<std::vector<std::uint32_t>> other_parts = straight_parts(others);
+    for (const std::vector<std::uint32_t>& part : straight_parts(cones)) {
+      for (const std::vector<std::uint32_t>& other : other_parts) {
+        fork.cones = part;
+        fork.others = other;
+        forks.push_back(fork);
+      }
+    }
+  }
+
+  /// Of cones that follow one another.
+  std::vector<std::vector<std::uint32_t>> straight_parts(const std::vector<std::uint32_t>& cones) const {
+    std::vector<std::vector<std::uint32_t>> parts;
+    for (const std::uint32_t index : cones) {
+      if (parts.empty() || glm::dot(cones_[parts.back().front()].along, cones_[index].along) < kStraight)
+        parts.emplace_back();
+      parts.back().push_back(index);
+    }
+    return parts;
   }
 
   /// Where cones stand on the ground their blend does so too, unless real roots go on below.
@@ -134,8 +160,10 @@ class ForkFinder {
     return result;
   }
 
+  /// From above downwards.
   std::vector<std::uint32_t> cones_through(std::uint32_t node, const ForkBlend& fork) const {
     std::vector<std::uint32_t> result = cones_upwards(branching_.continuation[node], fork);
+    std::reverse(result.begin(), result.end());
     for (std::uint32_t below = node; !skeleton_.is_root(below); below = skeleton_.parent[below]) {
       result.push_back(cone_of_[below]);
       const bool is_same_axis = skeleton_.axis[skeleton_.parent[below]] == skeleton_.axis[below];

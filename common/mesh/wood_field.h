@@ -34,12 +34,12 @@ RoundCone round_cone(const Vec3& base, double base_radius, const Vec3& tip, doub
 /// How far a blend moves the surface at most, in parts of its width.
 inline constexpr double kBlendDepth = 0.25;
 
-/// A place where the cones of two axes blend.
+/// A place where straight parts of two axes blend.
 struct ForkBlend {
   Vec3 center{0.0};
   double zone = 0.0;                  // radius of the ball in which they do, metres
   double width = 0.0;                 // differences of distance below this are smoothed, metres
-  std::vector<std::uint32_t> cones;   // of the one axis near the fork
+  std::vector<std::uint32_t> cones;   // of the one part, near the fork
   std::vector<std::uint32_t> others;  // of the other
   Vec3 cut{0.0};                      // as of a cone: the blend must not fill what was cut off there
   Vec3 cut_at{0.0};
