@@ -28,6 +28,11 @@ std::string command_of(const Trial& trial) {
   return command;
 }
 
+/// What the process held at most until now is forgotten. Linux.
+void forget_peak() {
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
+
 }  // namespace
 
 Outcome measured(const std::function<void()>& work) {
@@ -68,6 +73,7 @@ int answer_trial(std::span<char* const> arguments, const Performer& perform) {
   Trial trial{.work = arguments[0], .threads = std::stoi(arguments[1])};
   for (const char* assignment : arguments.subspan(2)) trial.assignments.emplace_back(assignment);
   drop_symbol_tables();
+  forget_peak();  // the loader's
   const ThreadLimit limit(trial.threads);
   const Outcome outcome = perform(trial);
   fmt::print("{} {} {} {} {} {}\n", outcome.seconds, outcome.cpu_seconds, outcome.count,

@@ -59,22 +59,26 @@ struct Plant {
   bool is_cut(std::size_t node) const { return node != 0 && parent[node] == kNone; }
 };
 
-/// Room for so many more values. Much of it once there are many, and by more than doubling: each time a large
-/// array moves, the old one and the new one are both in memory, and what it leaves is a hole in the heap,
-/// while room that is never used takes none. (Small trees get little: there may be thousands of them.) An
-/// array that fills a quarter of a large page gets such: what hangs together in a tree lies anywhere in it.
+/// Room for so many more values. Of large arrays much, and by more than doubling: each time one moves, the
+/// old one and the new one are both in memory, and what it leaves is a hole in the heap, while room that is
+/// never used takes none. (Small trees get little: there may be thousands of them.) Arrays that fill a
+/// quarter of a large page move to such: what hangs together in a tree lies anywhere in them.
 template <class T, class Allocator>
 void make_room(std::vector<T, Allocator>& values, std::size_t more) {
   constexpr std::size_t kGrowth = 4;
-  constexpr std::size_t kMany = 1 << 14;
-  constexpr std::size_t kLeastOfMany = 1 << 20;
   constexpr std::size_t kLarge = kLargePage / sizeof(T) / 4;
+  constexpr std::size_t kLeastOfLarge = 1 << 20;
   const std::size_t wanted = values.size() + more;
-  const bool moves = values.capacity() < wanted;
-  if (moves) values.reserve(wanted < kMany ? kGrowth * wanted : std::max(kLeastOfMany, kGrowth * wanted));
-  if (wanted >= kLarge && (moves || values.size() < kLarge)) {
-    prefer_large_pages(values.data(), values.capacity() * sizeof(T), values.size() * sizeof(T));
+  if (values.capacity() >= wanted) return;
+  std::vector<T, Allocator> roomier;
+  if (wanted < kLarge) {
+    roomier.reserve(std::min(kGrowth * wanted, kLarge));
+  } else {
+    roomier.reserve(std::max(kGrowth * wanted, kLeastOfLarge));
+    prefer_large_pages(roomier.data(), roomier.capacity() * sizeof(T));  // before it is touched
   }
+  roomier.insert(roomier.end(), values.begin(), values.end());
+  values.swap(roomier);
 }
 
 /// std::vector::resize() with make_room().

@@ -1,7 +1,5 @@
 #include "common/base/large_pages.h"
 
-#include <algorithm>
-
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -14,17 +12,12 @@ std::uintptr_t large_page_of(const void* address) {
 
 // Both are advice: nothing depends on them.
 
-void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes,
-                        [[maybe_unused]] std::size_t used) {
+void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t first = (begin + kLargePage - 1) / kLargePage * kLargePage;
   const std::uintptr_t last = (begin + bytes) / kLargePage * kLargePage;
-  if (first >= last) return;
-  madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-  for (std::uintptr_t page = first; page < std::min(last, begin + used); page += kLargePage) {
-    gather_in_large_page(reinterpret_cast<void*>(page));
-  }
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 #endif
 }
 

@@ -12,9 +12,9 @@ inline constexpr std::size_t kLargePage = std::size_t{2} << 20;  // bytes
 /// Which large page an address would be in.
 std::uintptr_t large_page_of(const void* address);
 
-/// Asks for large pages where memory is first touched, and moves its first `used` bytes into such. Ends that
-/// do not fill one stay in small pages.
-void prefer_large_pages(void* memory, std::size_t bytes, std::size_t used = 0);
+/// Asks for large pages where memory that nobody has written to yet is first touched. Ends that do not fill one
+/// stay in small pages.
+void prefer_large_pages(void* memory, std::size_t bytes);
 
 /// Asks for the large page around an address, most of it in use, to be held in one piece.
 void gather_in_large_page(const void* address);
