@@ -59,7 +59,7 @@ struct UnwrittenAllocator : LeavesUnwritten {
 template <class T>
 using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;
 
-/// A vector whose resize(n) does not write the new elements.
+/// Likewise, in memory of allocate_bulk().
 template <class T>
 using BulkVector = std::vector<T, BulkAllocator<T>>;
 
