@@ -12,8 +12,8 @@ inline constexpr std::size_t kLargePage = std::size_t{2} << 20;  // bytes
 /// Which large page an address would be in.
 std::uintptr_t large_page_of(const void* address);
 
-/// Asks for large pages where memory that nobody has written to yet is first touched. Ends that do not fill one
-/// stay in small pages.
+/// Asks for large pages where memory that nobody has written to yet is first touched. Ends that do not fill
+/// one stay in small pages.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
 /// Asks for the large page around an address, most of it in use, to be held in one piece.
