@@ -41,14 +41,17 @@ constexpr int kTenMillionSteps = 180;     // 10 million
 constexpr int kPriorityMediumSteps = 21;  // as kMediumSteps
 constexpr int kPriorityFullSteps = 30;    // as kFullSteps
 
-/// One of the trees that time is fitted to. In thousands: 40, 80, 98, 160, 320, 463, 640, 968, 1300.
-struct Size {
+// The trees that time is fitted to. In thousands: 40, 80, 98, 160, 320, 463, 640, 968, 1300.
+constexpr int kSizes[] = {30, 37, kMediumSteps, kQuickSteps, 59, 66, kFullSteps, 83, 91};
+
+/// A tree such as the quickest public program grows, after as many steps as that takes to the same size.
+struct Unshed {
   int steps = 0;
-  double peer_millions_per_s = 0.0;  // internodes that the quickest public program makes; 0: none so large
+  const char* size = "";
+  double public_millions = 0.0;  // internodes a second that the program made; 0: not known
 };
 
-constexpr Size kSizes[] = {{30},       {37},         {kMediumSteps}, {kQuickSteps}, {59},
-                           {66, 0.42}, {kFullSteps}, {83, 0.33},     {91}};
+constexpr Unshed kUnshed[] = {{30, "153,000"}, {41, "440,000", 0.42}, {52, "975,000", 0.33}};
 
 std::string steps_assignment(int steps) {
   return fmt::format("steps={}", steps);
@@ -62,6 +65,12 @@ std::string threads_name(int steps) {
 }
 std::string plain_name(int steps) {
   return fmt::format("plain/steps:{}", steps);
+}
+std::string unshed_name(int steps) {
+  return fmt::format("unshed/steps:{}", steps);
+}
+std::string dense_name(int steps) {
+  return fmt::format("dense/steps:{}", steps);
 }
 std::string priority_name(int steps) {
   return fmt::format("priority/steps:{}", steps);
@@ -99,11 +108,19 @@ void register_trees(Results& results, const Options& options) {
     trial.assignments.insert(trial.assignments.begin(), steps_assignment(steps));
     register_trial(results, name, repetitions, trial);
   };
-  for (const Size& size : kSizes) {
-    if (options.is_quick && size.steps > kQuickSteps) continue;
-    add(size_name(size.steps), size.steps, {.work = kGrowth});
-    if (size.steps != largest_steps(options)) continue;
-    add(threads_name(size.steps), size.steps, {.work = kGrowth, .threads = 2});
+  for (const int steps : kSizes) {
+    if (options.is_quick && steps > kQuickSteps) continue;
+    add(size_name(steps), steps, {.work = kGrowth});
+    if (steps != largest_steps(options)) continue;
+    add(threads_name(steps), steps, {.work = kGrowth, .threads = 2});
+  }
+  for (const Unshed& tree : kUnshed) {
+    if (options.is_quick == (tree.public_millions > 0.0)) continue;
+    const std::vector<std::string> assignments = unshed_assignments(tree.steps);
+    register_trial(results, unshed_name(tree.steps), repetitions,
+                   {.work = kGrowth, .assignments = assignments});
+    register_trial(results, dense_name(tree.steps), repetitions,
+                   {.work = kDense, .assignments = assignments});
   }
   const std::vector<std::string> priority = {"growth.allocation=priority"};
   add(priority_name(priority_steps(options)), priority_steps(options),
@@ -133,6 +150,21 @@ std::optional<double> program_megabytes_of(const std::optional<Outcome>& outcome
   return outcome ? std::optional(outcome->bytes_at_start / 1e6) : std::nullopt;
 }
 
+/// Against the quickest public program: its way, gone by ourselves, and what it was measured to reach.
+void add_unshed(GoalTable& table, const Results& results) {
+  for (const Unshed& tree : kUnshed) {
+    const std::optional<Outcome> grown = results.find(unshed_name(tree.steps));
+    if (!grown) continue;
+    const bool has_goal = tree.public_millions > 0.0;
+    table.add(fmt::format("nothing shed, {}: a dense field and nodes on the heap", tree.size),
+              results.ratio(dense_name(tree.steps), unshed_name(tree.steps)), "x",
+              has_goal ? std::optional(Goal{2.0, 0.0, false}) : std::nullopt);
+    if (!has_goal) continue;
+    table.add(fmt::format("  million internodes a second; a public program: {}", tree.public_millions),
+              grown->count / grown->seconds / 1e6, "", Goal{2.0 * tree.public_millions, 0.0, false});
+  }
+}
+
 /// The rows of performance.md that are about growth.
 void print_goals(const Results& results, const Options& options) {
   const int largest = largest_steps(options);
@@ -151,6 +183,7 @@ void print_goals(const Results& results, const Options& options) {
             Goal{7.0, 18.0, false});
   table.add("the plain version at 98,000 internodes",
             results.ratio(plain_name(kMediumSteps), size_name(kMediumSteps)), "x");
+  add_unshed(table, results);
   add_components(table, results);
   table.add("space markers against light, an internode, 100,000",
             results.ratio_each(kSpace, size_name(kMediumSteps)), "x", Goal{3.0, 1.5});
@@ -166,30 +199,27 @@ void print_goals(const Results& results, const Options& options) {
 }
 
 void print_sizes(const Results& results) {
-  constexpr const char* layout = "{:>10} {:>7} {:>9} {:>9} {:>12} {:>12} {:>9} {:>16}\n";
+  constexpr const char* layout = "{:>10} {:>7} {:>9} {:>9} {:>12} {:>12} {:>9}\n";
   std::vector<double> internodes;
   std::vector<double> seconds;
   std::vector<Outcome> outcomes;
-  const bool has_any = std::any_of(std::begin(kSizes), std::end(kSizes), [&](const Size& size) {
-    return results.find(size_name(size.steps)).has_value();
-  });
+  const bool has_any = std::any_of(std::begin(kSizes), std::end(kSizes),
+                                   [&](int steps) { return results.find(size_name(steps)).has_value(); });
   if (!has_any) return;
   fmt::print("\nOne thread, by size; bytes without the program's own\n");
-  fmt::print(layout, "internodes", "steps", "seconds", "CPU s", "million/s", "bytes each", "peak MB",
-             "public program");
-  for (const Size& size : kSizes) {
-    const std::optional<Outcome> outcome = results.find(size_name(size.steps));
+  fmt::print(layout, "internodes", "steps", "seconds", "CPU s", "million/s", "bytes each", "peak MB");
+  for (const int steps : kSizes) {
+    const std::optional<Outcome> outcome = results.find(size_name(steps));
     if (!outcome) continue;
     internodes.push_back(outcome->count);
     seconds.push_back(outcome->seconds);
     outcomes.push_back(*outcome);
     const double bytes = outcome->peak_bytes - outcome->bytes_at_start;
-    fmt::print(layout, outcome->count, size.steps, fmt::format("{:.3f}", outcome->seconds),
+    fmt::print(layout, outcome->count, steps, fmt::format("{:.3f}", outcome->seconds),
                fmt::format("{:.3f}", outcome->cpu_seconds),
                fmt::format("{:.2f}", outcome->count / outcome->seconds / 1e6),
                fmt::format("{:.0f}", bytes / outcome->count),
-               fmt::format("{:.0f}", outcome->peak_bytes / 1e6),
-               size.peer_millions_per_s > 0.0 ? fmt::format("{} million/s", size.peer_millions_per_s) : "");
+               fmt::format("{:.0f}", outcome->peak_bytes / 1e6));
   }
   if (internodes.size() < 2) return;
   fmt::print("time grows as N^{:.2f} (reach: N^1.3)\n", fitted_exponent(internodes, seconds));

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "bench/plain_seeker.h"
 #include "common/base/errors.h"
 #include "common/base/rng.h"
 #include "growth/phyllotaxis.h"
@@ -15,7 +16,6 @@ using namespace growth;
 
 // As in growth/: decided the same way, or the trees would differ.
 constexpr double kVigourSlack = 1e-9;
-constexpr double kConeSlack = 1e-6;
 
 Penumbra penumbra_of(const Parameters& world) {
   return {.a = world.a, .b = world.b, .q_max = world.q_max};
@@ -24,7 +24,7 @@ Penumbra penumbra_of(const Parameters& world) {
 bool is_known_light(const Parameters& p) {
   return p.environment == Environment::light && p.shadow == ShadowModel::additive &&
          p.casters == Casters::metamers && p.leaf_lifespan == 0 && p.sun_direction == kUp &&
-         p.optimal_from == OptimalFrom::darkest_free && p.tie == Tie::mean && p.v_per == OptimalPer::metamer;
+         p.tie == Tie::mean;
 }
 
 bool is_known_growth(const Parameters& p) {
@@ -36,6 +36,10 @@ bool is_known_growth(const Parameters& p) {
          p.combine == Combine::sum && p.phyllotaxis == Phyllotaxis::spiral && p.tip_bud == TipBud::both &&
          !p.sympodial && p.bud_lifespan.is_constant() && p.bud_lifespan.at(0) <= 0.0 &&
          p.shed_by == ShedBy::light;
+}
+
+bool never_sheds(const Parameters& p) {
+  return p.shed_threshold.is_constant() && p.shed_threshold.at(0) <= 0.0;
 }
 
 bool is_known_world(const Parameters& p) {
@@ -87,8 +91,7 @@ class PlainTree::Shoots {
   Shoots(PlainTree& tree, const Parameters& parameters, int step)
       : tree_(tree),
         p_(parameters),
-        radius_(p_.r.at(step) + kConeSlack),
-        min_cosine_(std::cos(radians(p_.theta_deg.at(step) / 2.0)) - kConeSlack),
+        seeker_(p_, step),
         w_default_(p_.w_default.at(step)),
         w_optimal_(p_.w_optimal.at(step)),
         length_(p_.internode_length.at(step)),
@@ -107,8 +110,7 @@ class PlainTree::Shoots {
 
   PlainTree& tree_;
   const Parameters& p_;
-  double radius_;  // voxels
-  double min_cosine_;
+  PlainSeeker seeker_;
   double w_default_;
   double w_optimal_;
   double length_;
@@ -137,8 +139,10 @@ bool PlainTree::Shoots::grow(const GrowingBud& bud, std::uint32_t next_axis) {
   const double count = std::floor(bud.vigour + kVigourSlack);
   const double metamer_length = length_ * bud.vigour / count;
   Node* node = bud.node;
+  Vec3 optimal(0.0);
   for (int i = 0; i < static_cast<int>(count); ++i) {
-    const Vec3 pull = w_optimal_ * best_direction(node->position, frame.direction) + pull_;
+    if (i == 0 || p_.v_per == OptimalPer::metamer) optimal = best_direction(node->position, frame.direction);
+    const Vec3 pull = w_optimal_ * optimal + pull_;
     const Vec3 direction = normalized_or(w_default_ * frame.direction + pull, frame.direction);
     const Vec3 end = node->position + direction * metamer_length;
     if (p_.ground && end.y < ground_y_) break;
@@ -153,6 +157,7 @@ bool PlainTree::Shoots::grow(const GrowingBud& bud, std::uint32_t next_axis) {
     place_buds(p_, p_.seed, angles_, frame, tip.axis_id, ++tip.rank,
                std::span(&child->axillary_bud->direction, 1));
     node = child.get();
+    tree_.uncast_.push_back(node);
   }
   if (node == bud.node) return false;
   tip.direction = Vec3f(frame.direction);
@@ -161,39 +166,22 @@ bool PlainTree::Shoots::grow(const GrowingBud& bud, std::uint32_t next_axis) {
   return true;
 }
 
-/// The mean direction of the least shaded voxels in the cone.
 Vec3 PlainTree::Shoots::best_direction(const Vec3& apex, const Vec3& axis) const {
-  const PlainShadow& shadow = tree_.shadow_;
-  const Vec3 place = apex / shadow.voxel_size();
-  const Coord own = shadow.voxel_of(apex);
-  const int reach = static_cast<int>(std::floor(radius_ + 0.5));
-  Shadow least = std::numeric_limits<Shadow>::max();
-  Vec3 sum(0.0);
-  for (int i = -reach; i <= reach; ++i) {
-    for (int j = -reach; j <= reach; ++j) {
-      for (int k = -reach; k <= reach; ++k) {
-        const Coord voxel = own + Coord(i, j, k);
-        if (voxel == own) continue;
-        const Vec3 to_voxel = Vec3(voxel) - place;
-        const double distance = glm::length(to_voxel);
-        if (distance > radius_ || glm::dot(to_voxel, axis) < min_cosine_ * distance) continue;
-        const Shadow found = shadow.at(voxel);
-        if (found > least) continue;
-        if (found < least) sum = Vec3(0.0);
-        least = found;
-        sum += glm::normalize(to_voxel);
-      }
-    }
-  }
-  return normalized_or(sum, axis);
+  return std::visit([&](const auto& shadow) { return seeker_.best_direction(shadow, apex, axis); },
+                    tree_.shadow_);
 }
 
 PlainTree::PlainTree(const Parameters& parameters)
-    : parameters_(parameters),
-      shadow_(penumbra_of(parameters), parameters.voxel_edge()),
-      root_(std::make_unique<Node>()) {
-  const bool is_known =
-      is_known_light(parameters) && is_known_growth(parameters) && is_known_world(parameters);
+    : PlainTree(parameters, PlainShadow(penumbra_of(parameters), parameters.voxel_edge())) {}
+
+PlainTree::PlainTree(const Parameters& parameters, int voxels)
+    : PlainTree(parameters, DenseShadow(penumbra_of(parameters), parameters.voxel_edge(), voxels)) {}
+
+PlainTree::PlainTree(const Parameters& parameters, Field field)
+    : parameters_(parameters), shadow_(std::move(field)), root_(std::make_unique<Node>()) {
+  const bool is_known = is_known_light(parameters) && is_known_growth(parameters) &&
+                        is_known_world(parameters) &&
+                        (std::holds_alternative<PlainShadow>(shadow_) || never_sheds(parameters));
   if (!is_known) {
     throw InputError(
         "the plain version of the growth model has no code for these parameters (plain_growth.h)");
@@ -202,6 +190,8 @@ PlainTree::PlainTree(const Parameters& parameters)
   root_->terminal_bud = std::make_unique<TerminalBud>();
   root_->terminal_bud->reference = Vec3f(perpendicular_at(kUp, azimuth));
 }
+
+PlainTree::PlainTree(PlainTree&&) noexcept = default;
 
 PlainTree::~PlainTree() = default;
 
@@ -215,7 +205,7 @@ void PlainTree::advance() {
   sense();
   const int step = step_ + 1;
   const double threshold = step > parameters_.shed_after ? parameters_.shed_threshold.at(step) : 0.0;
-  mark_shaded(*root_, threshold);
+  if (threshold > 0.0) mark_shaded(*root_, threshold);
 
   std::vector<GrowingBud> buds;
   collect_growing(*root_, buds);
@@ -232,7 +222,7 @@ void PlainTree::advance() {
     if (shoots.grow(bud, axis) && !bud.is_terminal) axes_founded_ = axis + 1;
   }
 
-  shed_marked(*root_, pipe());
+  if (threshold > 0.0) shed_marked(*root_, pipe());
   step_ = step;
 }
 
@@ -244,8 +234,14 @@ void PlainTree::sense() {
 }
 
 void PlainTree::cast_shadows() {
-  shadow_.clear();
-  cast_shadows(*root_, shadow_);
+  if (auto* const dense = std::get_if<DenseShadow>(&shadow_)) {
+    for (const Node* node : uncast_) dense->cast(dense->voxel_of(node->position));
+  } else {
+    auto& sparse = std::get<PlainShadow>(shadow_);
+    sparse.clear();
+    cast_shadows(*root_, sparse);
+  }
+  uncast_.clear();
 }
 
 void PlainTree::cast_shadows(const Node& node, PlainShadow& shadow) {
@@ -255,10 +251,12 @@ void PlainTree::cast_shadows(const Node& node, PlainShadow& shadow) {
 }
 
 void PlainTree::sense_light() {
-  sense_light(*root_, shadow_, parameters_.C.at(step_ + 1));
+  const double full = parameters_.C.at(step_ + 1);
+  std::visit([&](const auto& shadow) { sense_light(*root_, shadow, full); }, shadow_);
 }
 
-void PlainTree::sense_light(Node& node, const PlainShadow& shadow, double full) {
+template <class AnyShadow>
+void PlainTree::sense_light(Node& node, const AnyShadow& shadow, double full) {
   const auto exposure = [&] {
     const Shadow own = node.number > 0 ? shadow.own_shadow() : 0;
     return std::max(full - (shadow.at(shadow.voxel_of(node.position)) - own) * kShadowUnit, 0.0);

@@ -4,18 +4,24 @@
 
 namespace ramify::bench {
 
+std::vector<growth::Shadow> shadow_by_level(const growth::Penumbra& penumbra) {
+  std::vector<growth::Shadow> amounts;
+  for (int q = 0; q <= penumbra.q_max; ++q) {
+    const double shadow = penumbra.a * std::pow(penumbra.b, -q);
+    amounts.push_back(static_cast<growth::Shadow>(std::lround(shadow / growth::kShadowUnit)));
+  }
+  return amounts;
+}
+
 struct PlainShadow::Grid {
   openvdb::Int32Grid::Ptr voxels = openvdb::Int32Grid::create(0);
   openvdb::Int32Grid::Accessor accessor = voxels->getAccessor();
 };
 
 PlainShadow::PlainShadow(const growth::Penumbra& penumbra, double voxel_size)
-    : voxel_size_(voxel_size), grid_(std::make_unique<Grid>()) {
-  for (int q = 0; q <= penumbra.q_max; ++q) {
-    const double shadow = penumbra.a * std::pow(penumbra.b, -q);
-    amounts_.push_back(static_cast<growth::Shadow>(std::lround(shadow / growth::kShadowUnit)));
-  }
-}
+    : voxel_size_(voxel_size), amounts_(shadow_by_level(penumbra)), grid_(std::make_unique<Grid>()) {}
+
+PlainShadow::PlainShadow(PlainShadow&&) noexcept = default;
 
 PlainShadow::~PlainShadow() = default;
 

@@ -3,16 +3,21 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "common/base/geometry.h"
 #include "growth/shadow_grid.h"
 
 namespace ramify::bench {
 
+/// What a caster adds to each voxel, level by level from its own.
+std::vector<growth::Shadow> shadow_by_level(const growth::Penumbra& penumbra);
+
 /// Additive shadow, the sun overhead, in units of 2^-16.
 class PlainShadow {
  public:
   PlainShadow(const growth::Penumbra& penumbra, double voxel_size);
+  PlainShadow(PlainShadow&& other) noexcept;
   ~PlainShadow();
 
   double voxel_size() const { return voxel_size_; }

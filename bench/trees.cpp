@@ -17,6 +17,30 @@ namespace {
 // Exponents and roots are rounded differently where widths are summed in another way.
 constexpr double kTolerance = 1e-9;
 
+/// Voxels each way of a dense field that an unshed tree stays in.
+int dense_voxels(const growth::Parameters& parameters) {
+  return 6 * parameters.steps;
+}
+
+PlainTree plain_tree(const growth::Parameters& parameters, bool is_dense) {
+  return is_dense ? PlainTree(parameters, dense_voxels(parameters)) : PlainTree(parameters);
+}
+
+/// The first difference between what growth/ and a plain version make.
+std::optional<std::string> plain_difference(const std::vector<std::string>& assignments, bool is_dense) {
+  const growth::Parameters parameters = trial_parameters(assignments);
+  const Skeleton grown = growth::Engine::run(parameters, {}).skeleton;
+  PlainTree plain = plain_tree(parameters, is_dense);
+  plain.grow();
+  const char* const version = is_dense ? "the plain version in a dense field" : "the plain version";
+  if (const auto found = difference(grown, plain.skeleton(), kTolerance)) {
+    return fmt::format("growth/ and {} differ after {} steps: {}", version, parameters.steps, *found);
+  }
+  fmt::print("{} steps: growth/ and {} make the same {} internodes\n", parameters.steps, version,
+             grown.internode_count());
+  return std::nullopt;
+}
+
 }  // namespace
 
 growth::Parameters trial_parameters(const std::vector<std::string>& assignments) {
@@ -24,6 +48,22 @@ growth::Parameters trial_parameters(const std::vector<std::string>& assignments)
   std::vector<std::string> as_large = {"steps=72"};
   as_large.insert(as_large.end(), assignments.begin(), assignments.end());
   return preset_parameters<growth::Engine>("p09-fig7-50", as_large);
+}
+
+std::vector<std::string> unshed_assignments(int steps) {
+  return {fmt::format("steps={}", steps),
+          "growth.shed_threshold=0",
+          "growth.max_metamers=0",
+          "growth.optimal_from=gradient",
+          "growth.v_per=shoot",
+          "growth.C=2.5",
+          "growth.a=0.8",
+          "growth.b=1.2247449",
+          "growth.q_max=6",
+          "growth.w_optimal=0.1",
+          "growth.tropism.up.weight=0.02",
+          "growth.branching_angle_deg=45",
+          "growth.divergence_deg=90"};
 }
 
 std::optional<std::string> difference(const Skeleton& a, const Skeleton& b, double tolerance) {
@@ -46,8 +86,8 @@ std::optional<std::string> difference(const Skeleton& a, const Skeleton& b, doub
 
 Outcome grow(const Trial& trial) {
   const growth::Parameters parameters = trial_parameters(trial.assignments);
-  if (trial.work == kPlain) {
-    PlainTree tree(parameters);
+  if (trial.work != kGrowth) {
+    PlainTree tree = plain_tree(parameters, trial.work == kDense);
     Outcome outcome = measured([&] { tree.grow(); });
     outcome.count = static_cast<double>(tree.internode_count());
     return outcome;
@@ -62,15 +102,8 @@ Outcome grow(const Trial& trial) {
 
 std::optional<std::string> plain_difference(const std::vector<int>& steps) {
   for (const int count : steps) {
-    const growth::Parameters parameters = trial_parameters({fmt::format("steps={}", count)});
-    const Skeleton grown = growth::Engine::run(parameters, {}).skeleton;
-    PlainTree plain(parameters);
-    plain.grow();
-    if (const auto found = difference(grown, plain.skeleton(), kTolerance)) {
-      return fmt::format("growth/ and the plain version differ after {} steps: {}", count, *found);
-    }
-    fmt::print("{} steps: growth/ and the plain version make the same {} internodes\n", count,
-               grown.internode_count());
+    if (auto found = plain_difference({fmt::format("steps={}", count)}, false)) return found;
+    if (auto found = plain_difference(unshed_assignments(count), true)) return found;
   }
   return std::nullopt;
 }

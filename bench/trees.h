@@ -19,14 +19,19 @@ growth::Parameters trial_parameters(const std::vector<std::string>& assignments)
 /// diameter by more than `tolerance` metres.
 std::optional<std::string> difference(const Skeleton& a, const Skeleton& b, double tolerance);
 
-/// What a trial can be: growth/, or the plain version.
+/// "KEY=VALUE" for a tree such as the quickest public program grows by its own defaults: nothing is shed, V
+/// is the gradient, found once a shoot, and shadows reach seven levels down. It grows some 5 voxels a step.
+std::vector<std::string> unshed_assignments(int steps);
+
+/// What a trial can be: growth/, the plain version, or that in a dense field, which takes unshed trees only.
 inline constexpr const char* kGrowth = "growth";
 inline constexpr const char* kPlain = "plain";
+inline constexpr const char* kDense = "dense";
 
 /// Grows the tree of a trial and measures that. Throws RunError if it does not get whole.
 Outcome grow(const Trial& trial);
 
-/// Grows trees of so many steps with growth/ and with the plain version. The first difference, if any.
+/// Grows trees of so many steps with growth/ and with the plain versions. The first difference, if any.
 std::optional<std::string> plain_difference(const std::vector<int>& steps);
 
 }  // namespace ramify::bench

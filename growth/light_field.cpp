@@ -12,31 +12,42 @@ Shadow LightField::uneven_sky(const Coord& voxel) const {
   return static_cast<Shadow>(std::lround(-std::log(random.uniform(0.95, 1.0)) / kShadowUnit));
 }
 
-double LightField::light_in(const Coord& voxel) const {
-  const double shadow = shade(voxel, grid_.at(voxel)) * kShadowUnit;
+double LightField::light_in(const Coord& voxel, LeafReader& reader) const {
+  const double shadow = shade(voxel, reader.at(voxel)) * kShadowUnit;
   return model_ == ShadowModel::additive ? -shadow : std::exp(-shadow);
 }
 
-double LightField::light(const Vec3& point) const {
+double LightField::light(const Vec3& point, LeafReader& reader) const {
   const Vec3 place = point / grid_.voxel_size();
-  const Coord low = grid_.voxel_of((glm::floor(place)) * grid_.voxel_size());
-  const Vec3 high_share = place - glm::floor(place);
+  const Vec3 below = glm::floor(place);
+  const Coord low = grid_.voxel_at(below);
+  const Vec3 high_share = place - below;
+  const Vec3 low_share = 1.0 - high_share;
   double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Coord offset(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Vec3 share = glm::mix(1.0 - high_share, high_share, Vec3(offset));
-    const double weight = share.x * share.y * share.z;
-    if (weight > 0.0) sum += weight * light_in(low + offset);
+  for (int z = 0; z < 2; ++z) {
+    for (int y = 0; y < 2; ++y) {
+      for (int x = 0; x < 2; ++x) {
+        const double weight =
+            (x ? high_share : low_share).x * (y ? high_share : low_share).y * (z ? high_share : low_share).z;
+        if (weight > 0.0) sum += weight * light_in(low + Coord(x, y, z), reader);
+      }
+    }
   }
   return sum;
 }
 
+double LightField::light(const Vec3& point) const {
+  LeafReader reader = grid_.reader();
+  return light(point, reader);
+}
+
 Vec3 LightField::slope(const Vec3& point, double probe) const {
+  LeafReader reader = grid_.reader();
   Vec3 gradient(0.0);
   for (int i = 0; i < 3; ++i) {
     Vec3 step(0.0);
     step[i] = probe * grid_.voxel_size();
-    gradient[i] = (light(point + step) - light(point - step)) / (2.0 * probe);
+    gradient[i] = (light(point + step, reader) - light(point - step, reader)) / (2.0 * probe);
   }
   return gradient;
 }

@@ -30,7 +30,8 @@ class LightField {
 
  private:
   Shadow uneven_sky(const Coord& voxel) const;
-  double light_in(const Coord& voxel) const;
+  double light_in(const Coord& voxel, LeafReader& reader) const;
+  double light(const Vec3& point, LeafReader& reader) const;
 
   const ShadowGrid& grid_;
   ShadowModel model_;

@@ -24,11 +24,13 @@ class ShadowGrid {
   double voxel_size() const { return voxel_size_; }
 
   /// The voxel that holds `point`; its centre is voxel_size * (i, j, k), so the root is in the middle of one.
-  Coord voxel_of(const Vec3& point) const {
+  Coord voxel_of(const Vec3& point) const { return voxel_at(glm::floor(point / voxel_size_ + 0.5)); }
+
+  /// The voxel with these whole numbers.
+  static Coord voxel_at(const Vec3& numbers) {
     // Indices stay where sums of a few of them cannot overflow.
     constexpr double kMaxIndex = 1 << 28;
-    const Vec3 index = glm::floor(point / voxel_size_ + 0.5);
-    return Coord(glm::clamp(index, Vec3(-kMaxIndex), Vec3(kMaxIndex)));
+    return Coord(glm::clamp(numbers, Vec3(-kMaxIndex), Vec3(kMaxIndex)));
   }
 
   /// Adds the shadows of the casters in the first voxels and takes those in the second away; a voxel may be
