@@ -141,7 +141,7 @@ template <class Allocate>
 Outcome pass_flat(Subjects& subjects, const Allocate& allocate) {
   const GrowingTree& tree = subjects.tree();
   LightSums sums = tree.sums;
-  std::vector<double> vigour = tree.vigour;
+  MappedVector<double> vigour = tree.vigour;
   return timed([&] {
     sum_light(tree.plant, tree.light, sums);
     allocate(tree.plant, tree.light, sums, tree.place, subjects.steps() + 1, vigour);

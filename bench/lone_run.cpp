@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "common/base/errors.h"
+#include "common/base/large_pages.h"
 #include "common/base/memory.h"
 #include "common/base/parallel.h"
 
@@ -73,6 +74,7 @@ int answer_trial(std::span<char* const> arguments, const Performer& perform) {
   Trial trial{.work = arguments[0], .threads = std::stoi(arguments[1])};
   for (const char* assignment : arguments.subspan(2)) trial.assignments.emplace_back(assignment);
   drop_symbol_tables();
+  keep_heap_in_large_pages();
   forget_peak();  // the loader's
   const ThreadLimit limit(trial.threads);
   const Outcome outcome = perform(trial);

@@ -86,12 +86,13 @@ std::optional<std::string> difference(const Skeleton& a, const Skeleton& b, doub
 
 Outcome grow(const Trial& trial) {
   const growth::Parameters parameters = trial_parameters(trial.assignments);
-  if (trial.work != kGrowth) {
+  if (trial.work == kPlain || trial.work == kDense) {
     PlainTree tree = plain_tree(parameters, trial.work == kDense);
     Outcome outcome = measured([&] { tree.grow(); });
     outcome.count = static_cast<double>(tree.internode_count());
     return outcome;
   }
+  if (trial.work != kGrowth) throw RunError(fmt::format("no work {}", trial.work));
   RunResult result;
   Outcome outcome = measured([&] { result = growth::Engine::run(parameters, {}); });
   if (!result.is_complete) throw RunError(result.report.warnings.front());

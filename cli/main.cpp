@@ -10,6 +10,7 @@
 #include "cli/interrupt.h"
 #include "cli/text.h"
 #include "common/base/errors.h"
+#include "common/base/large_pages.h"
 #include "common/base/memory.h"
 #include "common/config/field.h"
 #include "common/config/provenance.h"
@@ -120,6 +121,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   ramify::drop_symbol_tables();
+  ramify::keep_heap_in_large_pages();
   const int code = ramify::cli::run(argc, argv);
   // A full disk behind a redirected stdout must not pass for success.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

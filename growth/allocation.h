@@ -14,14 +14,14 @@ namespace ramify::growth {
 /// of Q, n being a side's internodes and buds. `vigour` gets one entry a bud; they sum to the v at the root
 /// unless all light is 0. With demand = sum the light in `sums` is used up: it becomes what each side
 /// passes on for a unit of light. O(nodes).
-void allocate_borchert_honda(const Plant& plant, const std::vector<double>& light, LightSums& sums,
-                             const TreeParameters& tree, int step, std::vector<double>& vigour);
+void allocate_borchert_honda(const Plant& plant, const MappedVector<double>& light, LightSums& sums,
+                             const TreeParameters& tree, int step, MappedVector<double>& vigour);
 
 /// Priority model: on each axis the axillary buds, lateral axes and the terminal bud are listed, best lit
 /// first, and share by their light times a weight that falls along the list. `vigour` as above.
 /// O(n log n) in the items of an axis.
-void allocate_priority(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
-                       const TreeParameters& tree, int step, std::vector<double>& vigour);
+void allocate_priority(const Plant& plant, const MappedVector<double>& light, const LightSums& sums,
+                       const TreeParameters& tree, int step, MappedVector<double>& vigour);
 
 /// Weight of the i-th of n items, i from 1 (P09, Eq. 3 with the fall that is meant).
 double priority_weight(std::size_t i, std::size_t n, double w_max, double w_min, double kappa);

@@ -20,7 +20,7 @@ double mean_demand(double light, std::uint32_t n, double exponent) {
 /// What the sides of each node ask for with demand = mean, where that does not add up like light; `of_node`
 /// says what a node asks for.
 template <class OfNode>
-std::vector<Sides> mean_demands(const Plant& plant, const std::vector<double>& light, double exponent,
+std::vector<Sides> mean_demands(const Plant& plant, const MappedVector<double>& light, double exponent,
                                 const OfNode& of_node) {
   std::vector<Sides> demands(plant.node_count(), Sides{});
   for (std::size_t i = 0; i < plant.buds.size(); ++i) {
@@ -38,7 +38,7 @@ std::vector<Sides> mean_demands(const Plant& plant, const std::vector<double>& l
 /// what a child node and a bud add to them. They become rates: what a side passes on for each unit of demand.
 template <class OfSides, class OfNode, class OfBud>
 void share(const Plant& plant, double at_root, double lambda, const OfSides& demands, const OfNode& of_node,
-           const OfBud& of_bud, std::vector<double>& vigour) {
+           const OfBud& of_bud, MappedVector<double>& vigour) {
   // A side whose sister has no light gets all, even where lambda is 0 or 1.
   const std::array<Sides, 2> weights{Sides{1.0, lambda}, Sides{1.0, 1.0 - lambda}};
   const auto weight = [&](const Sides& sides, Side side) { return weights[side][sides[1 - side] > 0.0]; };
@@ -73,8 +73,8 @@ double root_vigour(const LightSums& sums, const TreeParameters& tree, int step) 
   return tree.alpha0.at(step) + tree.alpha.at(step) * sums.total(0);
 }
 
-void allocate_borchert_honda(const Plant& plant, const std::vector<double>& light, LightSums& sums,
-                             const TreeParameters& tree, int step, std::vector<double>& vigour) {
+void allocate_borchert_honda(const Plant& plant, const MappedVector<double>& light, LightSums& sums,
+                             const TreeParameters& tree, int step, MappedVector<double>& vigour) {
   const double at_root = root_vigour(sums, tree, step);
   const double lambda = tree.lambda.at(step);
   if (tree.demand == Demand::sum) {

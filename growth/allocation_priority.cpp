@@ -23,7 +23,7 @@ struct Lists {
   std::vector<Item> items;
 };
 
-Lists list_items(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
+Lists list_items(const Plant& plant, const MappedVector<double>& light, const LightSums& sums,
                  bool is_ranked_by_total) {
   const auto base_of = [&](const Axis& axis) { return plant.parent[axis.first]; };
   const auto host_of = [&](const Axis& axis) { return plant.axis[base_of(axis)]; };
@@ -64,8 +64,8 @@ double priority_weight(std::size_t i, std::size_t n, double w_max, double w_min,
   return place < range ? w_max - (w_max - w_min) * place / range : w_min;
 }
 
-void allocate_priority(const Plant& plant, const std::vector<double>& light, const LightSums& sums,
-                       const TreeParameters& tree, int step, std::vector<double>& vigour) {
+void allocate_priority(const Plant& plant, const MappedVector<double>& light, const LightSums& sums,
+                       const TreeParameters& tree, int step, MappedVector<double>& vigour) {
   const double w_max = tree.w_max.at(step);
   const double w_min = tree.w_min.at(step);
   const double kappa = tree.kappa.at(step);
@@ -97,7 +97,7 @@ void allocate_priority(const Plant& plant, const std::vector<double>& light, con
     if (!(sum > 0.0)) continue;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const double share = axis_vigour[axis] * demand[i] / sum;
-      (items[i].is_axis ? axis_vigour : vigour)[items[i].index] = share;
+      (items[i].is_axis ? axis_vigour[items[i].index] : vigour[items[i].index]) = share;
     }
   }
 }

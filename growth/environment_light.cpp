@@ -26,7 +26,7 @@ T* with_room(std::vector<T>& values, std::size_t count) {
 }  // namespace
 
 void sense_light(const Plant& plant, const Parameters& world, const TreeParameters& tree,
-                 const LightField& field, int step, std::vector<double>& light) {
+                 const LightField& field, int step, MappedVector<double>& light) {
   const double full = tree.C.at(step);
   const ShadowGrid& grid = field.grid();
   const auto additive = [&](const Bud& bud) {

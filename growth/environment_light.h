@@ -14,7 +14,7 @@ namespace ramify::growth {
 /// bud whose own node (casters: metamers) or self (buds) casts gets its own shadow back: nothing shades
 /// itself. Multiplicative: C times the share of light that is left.
 void sense_light(const Plant& plant, const Parameters& world, const TreeParameters& tree,
-                 const LightField& field, int step, std::vector<double>& light);
+                 const LightField& field, int step, MappedVector<double>& light);
 
 /// Whether a metamer made at `birth_step` casts shadow in `step`.
 inline bool has_leaves(const Parameters& world, int birth_step, int step) {

@@ -16,9 +16,9 @@ struct GrowingTree {
   std::optional<History> history;
 
   // As last sensed, one entry a bud
-  std::vector<double> light;   // Q
-  std::vector<double> vigour;  // v
-  std::vector<Vec3f> space;    // V; with environment = space only
+  MappedVector<double> light;   // Q
+  MappedVector<double> vigour;  // v
+  std::vector<Vec3f> space;     // V; with environment = space only
 
   LightSums sums;                     // as allocation leaves them
   double resource = 0.0;              // v at the root

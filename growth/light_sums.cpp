@@ -13,14 +13,14 @@ constexpr std::size_t kClearedAhead = 256;  // nodes: some kilobytes of sums
 
 /// Of this size; what they were before is lost where they move.
 template <class T>
-void for_new_values(std::vector<T>& values, std::size_t size) {
+void for_new_values(MappedVector<T>& values, std::size_t size) {
   if (values.capacity() < size) values.clear();
   set_size(values, size);
 }
 
 /// Sets the sums to what the buds at each node have. On all threads: buds stand by node, and each task takes
 /// all buds of its nodes.
-void sum_buds(const Plant& plant, const std::vector<double>& light, std::vector<Sides>& sums) {
+void sum_buds(const Plant& plant, const MappedVector<double>& light, MappedVector<Sides>& sums) {
   const auto& buds = plant.buds;
   if (buds.empty()) std::fill(sums.begin(), sums.end(), Sides{});
   const auto first_at_node = [&](std::size_t i) {
@@ -54,7 +54,7 @@ void sum_buds(const Plant& plant, const std::vector<double>& light, std::vector<
 
 }  // namespace
 
-void sum_light(const Plant& plant, const std::vector<double>& light, LightSums& sums) {
+void sum_light(const Plant& plant, const MappedVector<double>& light, LightSums& sums) {
   const std::size_t count = plant.node_count();
   for_new_values(sums.light, count);
   for_new_values(sums.internodes, count);
@@ -87,7 +87,7 @@ std::vector<std::uint32_t> bud_counts(const Plant& plant) {
   return counts;
 }
 
-std::vector<double> subtree_sums(const Plant& plant, const std::vector<double>& values) {
+std::vector<double> subtree_sums(const Plant& plant, const MappedVector<double>& values) {
   std::vector<double> sums(plant.node_count(), 0.0);
   for (std::size_t i = 0; i < values.size(); ++i) {
     sums[plant.buds[i].node] += values[i];

@@ -27,19 +27,19 @@ using Sides = std::array<double, 2>;
 
 /// At each node, over its buds and all beyond them.
 struct LightSums {
-  std::vector<Sides> light;
-  std::vector<std::uint32_t> internodes;  // how many living ones, the node's own included
+  MappedVector<Sides> light;
+  MappedVector<std::uint32_t> internodes;  // how many living ones, the node's own included
 
   double total(std::size_t node) const { return light[node][kMain] + light[node][kLateral]; }
 };
 
 /// `light` has one entry a bud, of which none may be dead. O(nodes).
-void sum_light(const Plant& plant, const std::vector<double>& light, LightSums& sums);
+void sum_light(const Plant& plant, const MappedVector<double>& light, LightSums& sums);
 
 /// How many buds each node and all beyond it have. O(nodes).
 std::vector<std::uint32_t> bud_counts(const Plant& plant);
 
 /// Sums of a value of buds over the subtree of each node.
-std::vector<double> subtree_sums(const Plant& plant, const std::vector<double>& values);
+std::vector<double> subtree_sums(const Plant& plant, const MappedVector<double>& values);
 
 }  // namespace ramify::growth

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/base/bulk.h"
 #include "common/base/geometry.h"
 #include "common/base/large_pages.h"
+#include "common/base/mapped.h"
 #include "growth/parameters.h"
 #include "growth/shadow_grid.h"
 
@@ -40,16 +40,16 @@ struct Bud {
 struct Plant {
   // Nodes; 0 is the root. What the skeleton takes over stands in plain vectors.
   std::vector<Vec3> position;
-  std::vector<std::uint32_t> parent;          // kNone: the root, or cut away
-  UnwrittenVector<std::uint32_t> axis;        // its place in `axes`
-  UnwrittenVector<std::uint8_t> founds_axis;  // 1: the first internode of a lateral axis
-  UnwrittenVector<std::uint16_t> birth_step;  // 0: the root
-  std::vector<std::uint32_t> lost_tips;  // tips that children cut away had ever borne: the wood stays thick
-  std::vector<std::uint32_t> id;         // how many nodes were made before it; only where a history is kept
+  std::vector<std::uint32_t> parent;       // kNone: the root, or cut away
+  MappedVector<std::uint32_t> axis;        // its place in `axes`
+  MappedVector<std::uint8_t> founds_axis;  // 1: the first internode of a lateral axis
+  MappedVector<std::uint16_t> birth_step;  // 0: the root
+  std::vector<std::uint32_t> lost_tips;    // tips that children cut away had ever borne: the wood stays thick
+  std::vector<std::uint32_t> id;           // how many nodes were made before it; only where a history is kept
 
-  UnwrittenVector<Axis> axes;
-  UnwrittenVector<Bud> buds;             // by node; those that died in a step stay to its end
-  UnwrittenVector<Vec3f> bud_direction;  // of each, unit: default direction of its first metamer
+  MappedVector<Axis> axes;
+  MappedVector<Bud> buds;             // by node; those that died in a step stay to its end
+  MappedVector<Vec3f> bud_direction;  // of each, unit: default direction of its first metamer
 
   std::uint32_t axes_founded = 0;  // ever, the trunk too
   std::uint32_t cut_nodes = 0;     // holes in the arrays
@@ -60,13 +60,13 @@ struct Plant {
 };
 
 /// Room for so many more values. Of large arrays much, and by more than doubling: each time one moves, the
-/// old one and the new one are both in memory, and what it leaves is a hole in the heap, while room that is
-/// never used takes none. (Small trees get little: there may be thousands of them.) Arrays that fill a
-/// quarter of a large page move to such: what hangs together in a tree lies anywhere in them.
+/// old one and the new one are both in memory, while room that is never used takes none. (Small trees get
+/// little: there may be thousands of them.) Large ones are in large pages: what hangs together in a tree lies
+/// anywhere in them.
 template <class T, class Allocator>
 void make_room(std::vector<T, Allocator>& values, std::size_t more) {
   constexpr std::size_t kGrowth = 4;
-  constexpr std::size_t kLarge = kLargePage / sizeof(T) / 4;
+  constexpr std::size_t kLarge = kLeastMapped / sizeof(T);
   constexpr std::size_t kLeastOfLarge = 1 << 20;
   const std::size_t wanted = values.size() + more;
   if (values.capacity() >= wanted) return;

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> shaded_axes(const Plant& plant, const LightSums& sums
 }
 
 std::vector<std::uint32_t> starved_internodes(const Plant& plant, const LightSums& sums,
-                                              const std::vector<double>& vigour, const TreeParameters& tree,
+                                              const MappedVector<double>& vigour, const TreeParameters& tree,
                                               int step) {
   const double threshold = threshold_of(ShedBy::vigour, tree, step);
   std::vector<std::uint32_t> starved;

@@ -17,7 +17,7 @@ std::vector<std::uint32_t> shaded_axes(const Plant& plant, const LightSums& sums
 /// shed_by = vigour: the internodes that get less resource for each internode beyond them, their own
 /// included, than the threshold; anywhere, on the trunk too. None up to step shed_after. SOT.
 std::vector<std::uint32_t> starved_internodes(const Plant& plant, const LightSums& sums,
-                                              const std::vector<double>& vigour, const TreeParameters& tree,
+                                              const MappedVector<double>& vigour, const TreeParameters& tree,
                                               int step);
 
 }  // namespace ramify::growth

@@ -246,8 +246,8 @@ void sort_buds(Plant& plant) {
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return plant.buds[a].node < plant.buds[b].node; });
-  UnwrittenVector<Bud> buds;
-  UnwrittenVector<Vec3f> direction;
+  MappedVector<Bud> buds;
+  MappedVector<Vec3f> direction;
   for (const std::uint32_t i : order) {
     buds.push_back(plant.buds[i]);
     direction.push_back(plant.bud_direction[i]);

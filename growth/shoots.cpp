@@ -170,14 +170,14 @@ class Tracer {
 
 }  // namespace
 
-double planned_metamers(const std::vector<double>& vigour, const TreeParameters& tree, int step) {
+double planned_metamers(const MappedVector<double>& vigour, const TreeParameters& tree, int step) {
   const double cap = tree.max_metamers.at(step);
   double sum = 0.0;
   for (const double v : vigour) sum += metamer_count(capped_vigour(v, cap));
   return sum;
 }
 
-ShootPlanner::ShootPlanner(const Plant& plant, const std::vector<double>& vigour, const TreeParameters& tree,
+ShootPlanner::ShootPlanner(const Plant& plant, const MappedVector<double>& vigour, const TreeParameters& tree,
                            int step)
     : plant_(plant),
       vigour_(vigour),

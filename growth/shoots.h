@@ -28,18 +28,18 @@ struct Shoot {
 /// metamers.
 struct Traces {
   std::size_t buds_per_node = 1;
-  UnwrittenVector<Vec3> position;
-  UnwrittenVector<Coord> voxel;     // light
-  UnwrittenVector<Vec3f> axillary;  // default directions of its axillary buds, buds_per_node a slot
+  BulkVector<Vec3> position;
+  BulkVector<Coord> voxel;     // light
+  BulkVector<Vec3f> axillary;  // default directions of its axillary buds, buds_per_node a slot
 };
 
 /// How many metamers the buds will make with this vigour; a number that may be beyond all memory.
-double planned_metamers(const std::vector<double>& vigour, const TreeParameters& tree, int step);
+double planned_metamers(const MappedVector<double>& vigour, const TreeParameters& tree, int step);
 
 /// Plans a step: one shoot for each bud with v >= 1, the axes of new ones named from plant.axes_founded on.
 class ShootPlanner {
  public:
-  ShootPlanner(const Plant& plant, const std::vector<double>& vigour, const TreeParameters& tree, int step);
+  ShootPlanner(const Plant& plant, const MappedVector<double>& vigour, const TreeParameters& tree, int step);
 
   /// The next shoots, so many at most; none if there are no more. Those before may be part of the plant by
   /// then.
@@ -49,7 +49,7 @@ class ShootPlanner {
   bool pick_buds();
 
   const Plant& plant_;
-  const std::vector<double>& vigour_;
+  const MappedVector<double>& vigour_;
   double cap_;
   double length_;
   std::vector<std::uint32_t> picked_;  // buds that grow, of those up to next_bud_

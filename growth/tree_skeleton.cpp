@@ -1,6 +1,7 @@
 #include "growth/tree_skeleton.h"
 
-#include "common/base/parallel.h"
+#include <utility>
+
 #include "common/skeleton/passes.h"
 
 namespace ramify::growth {
@@ -11,15 +12,33 @@ void release(Values& values) {
   Values().swap(values);
 }
 
-/// Sums of a value of buds over each node's subtree, a node of the skeleton: with a history 0 for shed ones.
-std::vector<float> skeleton_sums(const GrowingTree& tree, const std::vector<double>& values) {
-  const std::vector<double> sums = subtree_sums(tree.plant, values);
-  if (!tree.history) return {sums.begin(), sums.end()};
-  std::vector<float> result(tree.history->position.size(), 0.0f);
-  for (std::size_t node = 0; node < sums.size(); ++node) {
-    result[tree.plant.id[node]] = static_cast<float>(sums[node]);
+enum Total : std::size_t { kLight, kVigour };
+
+/// Light and resource of each node's subtree, summed up in the memory of the light sums, which are done with.
+MappedVector<Sides> subtree_totals(GrowingTree& tree) {
+  const Plant& plant = tree.plant;
+  MappedVector<Sides> totals = std::move(tree.sums.light);
+  totals.assign(plant.node_count(), Sides{});
+  for (std::size_t i = 0; i < plant.buds.size(); ++i) {
+    Sides& total = totals[plant.buds[i].node];
+    total[kLight] += tree.light[i];
+    total[kVigour] += tree.vigour[i];
   }
-  return result;
+  for (std::size_t node = totals.size(); node-- > 1;) {
+    if (plant.is_cut(node)) continue;
+    totals[plant.parent[node]][kLight] += totals[node][kLight];
+    totals[plant.parent[node]][kVigour] += totals[node][kVigour];
+  }
+  return totals;
+}
+
+/// One of the totals for each node of the skeleton: with a history 0 for shed ones.
+std::vector<float> skeleton_values(const GrowingTree& tree, const MappedVector<Sides>& totals, Total which) {
+  std::vector<float> values(tree.history ? tree.history->position.size() : totals.size(), 0.0f);
+  for (std::size_t node = 0; node < totals.size(); ++node) {
+    values[tree.history ? tree.plant.id[node] : node] = static_cast<float>(totals[node][which]);
+  }
+  return values;
 }
 
 void take_plant(Plant& plant, Skeleton& skeleton) {
@@ -53,15 +72,17 @@ void take_history(History& history, Skeleton& skeleton) {
 Skeleton skeleton_of(GrowingTree tree, const Parameters& world) {
   static_assert(kNone == kNoParent);
   Plant& plant = tree.plant;
-  tree.sums = {};
+  release(tree.sums.internodes);
   release(tree.space);
   compact(plant, 0.0);
 
   Skeleton skeleton;
-  side_by_side([&] { skeleton.light = skeleton_sums(tree, tree.light); },
-               [&] { skeleton.vigour = skeleton_sums(tree, tree.vigour); });
+  MappedVector<Sides> totals = subtree_totals(tree);
   release(tree.light);
   release(tree.vigour);
+  skeleton.light = skeleton_values(tree, totals, kLight);
+  skeleton.vigour = skeleton_values(tree, totals, kVigour);
+  release(totals);
   release(plant.buds);
   release(plant.bud_direction);
   const PipeModel pipe{.exponent = world.pipe_exponent, .tip_diameter = world.tip_diameter};

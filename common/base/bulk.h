@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -42,25 +41,7 @@ struct BulkAllocator : LeavesUnwritten {
   friend bool operator==(const BulkAllocator&, const BulkAllocator&) { return true; }
 };
 
-template <class T>
-struct UnwrittenAllocator : LeavesUnwritten {
-  using value_type = T;
-
-  UnwrittenAllocator() = default;
-  template <class U>
-  UnwrittenAllocator(const UnwrittenAllocator<U>&) {}
-
-  T* allocate(std::size_t count) { return std::allocator<T>().allocate(count); }
-  void deallocate(T* memory, std::size_t count) { std::allocator<T>().deallocate(memory, count); }
-
-  friend bool operator==(const UnwrittenAllocator&, const UnwrittenAllocator&) { return true; }
-};
-
-/// A vector whose resize(n) does not write the new elements.
-template <class T>
-using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;
-
-/// Likewise, in memory of allocate_bulk().
+/// A vector in memory of allocate_bulk(), whose resize(n) does not write the new elements.
 template <class T>
 using BulkVector = std::vector<T, BulkAllocator<T>>;
 

@@ -2,9 +2,14 @@
 
 #include "common/base/memory.h"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +18,7 @@
 
 #include "common/base/bulk.h"
 #include "common/base/large_pages.h"
+#include "common/base/mapped.h"
 #include "tests/catch.h"
 
 using namespace ramify;
@@ -27,6 +33,20 @@ bool has_large_pages_unasked() {
   std::getline(in, modes);
   return modes.find("[always]") != std::string::npos;
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+/// Pages that are touched for the first time while `work` is done.
+long fresh_pages(const std::function<void()>& work) {
+  const auto touched = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_minflt;
+  };
+  const long before = touched();
+  work();
+  return touched() - before;
+}
+#endif
 }  // namespace
 
 TEST_CASE("memory: a process that takes some holds it, and its peak stays when it is given back") {
@@ -74,7 +94,7 @@ TEST_CASE("memory: symbol tables are dropped, and come back where they are neede
   CHECK(number == 1.5);
 }
 
-TEST_CASE("memory: large pages are asked for inside any array") {
+TEST_CASE("memory: large pages are asked for in any array") {
   // Neither end is where a large page begins.
   std::vector<std::uint8_t> values(5 * kLargePage + 12345);
   std::iota(values.begin(), values.end(), std::uint8_t{0});
@@ -83,8 +103,8 @@ TEST_CASE("memory: large pages are asked for inside any array") {
   for (std::size_t i = 0; i < values.size(); ++i) REQUIRE(values[i] == static_cast<std::uint8_t>(i));
 }
 
-TEST_CASE("memory: an unwritten vector keeps what it has when it grows") {
-  UnwrittenVector<std::uint32_t> values{1, 2, 3};
+TEST_CASE("memory: a bulk vector keeps what it has when it grows") {
+  BulkVector<std::uint32_t> values{1, 2, 3};
   values.resize(1'000'000);
   values[999'999] = 4;
   values.push_back(5);
@@ -92,8 +112,28 @@ TEST_CASE("memory: an unwritten vector keeps what it has when it grows") {
   CHECK(values[2] == 3);
   CHECK(values[999'999] == 4);
   CHECK(values.back() == 5);
-  CHECK(UnwrittenVector<std::uint32_t>(3, 7) == UnwrittenVector<std::uint32_t>{7, 7, 7});
+  CHECK(BulkVector<std::uint32_t>(3, 7) == BulkVector<std::uint32_t>{7, 7, 7});
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+TEST_CASE("memory: a heap in large pages keeps what it is given back") {
+  // In a process of its own: other tests shall find the heap as they know it.
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    keep_heap_in_large_pages();
+    const auto fill = [] {
+      const std::vector<std::uint8_t> values(16 * kMega, 7);
+      if (values.back() != 7) _exit(2);
+    };
+    fill();
+    _exit(fresh_pages(fill) < 16 ? 0 : 1);
+  }
+  int status = -1;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(status == 0);
+}
+#endif
 
 TEST_CASE("memory: what is gathered in a large page stays as it is") {
   std::vector<int> values(3'000'000);
@@ -121,4 +161,28 @@ TEST_CASE("memory: arrays as large as a large page begin with one, and hold no m
 
   BulkVector<std::uint8_t> small(kLargePage - 1, 7);
   CHECK(std::ranges::count(small, std::uint8_t{7}) == std::ssize(small));
+}
+
+TEST_CASE("memory: mapped arrays side by side hold no more than they fill, and keep what they have") {
+  constexpr std::size_t size = kLargePage + kLargePage / 2;
+  constexpr std::size_t count = 20;
+  const std::uint64_t before = process_memory().now;
+  std::vector<MappedVector<std::uint8_t>> arrays(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    arrays[i].reserve(10 * size);  // takes none
+    arrays[i] = {1, 2, 3};
+    arrays[i].resize(size);
+    CHECK(arrays[i][2] == 3);
+    std::ranges::fill(arrays[i], static_cast<std::uint8_t>(i));
+  }
+  // Each has at most one large page more than it fills.
+  if (!has_large_pages_unasked()) CHECK(process_memory().now < before + count * (size + kLargePage));
+  for (std::size_t i = 0; i < count; ++i)
+    CHECK(static_cast<std::size_t>(std::ranges::count(arrays[i], static_cast<std::uint8_t>(i))) == size);
+
+  MappedVector<std::uint32_t> grown(3, 7);
+  grown.resize(kLeastMapped);  // from the heap to a mapping
+  grown.push_back(8);
+  CHECK(grown[2] == 7);
+  CHECK(grown.back() == 8);
 }

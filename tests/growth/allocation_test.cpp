@@ -18,7 +18,7 @@ namespace {
 /// terminal bud on the trunk's first node.
 struct Fork {
   Plant plant;
-  std::vector<double> light = {0.5, 0.25, 1.0};  // terminal, axillary, lateral's terminal
+  MappedVector<double> light = {0.5, 0.25, 1.0};  // terminal, axillary, lateral's terminal
   LightSums sums;
 
   Fork() {
@@ -32,7 +32,7 @@ struct Fork {
   }
 };
 
-double sum(const std::vector<double>& values) {
+double sum(const MappedVector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("Borchert-Honda: a fork shares by lambda times light") {
   parameters.alpha0 = 0.5;
   for (const double lambda : {0.0, 0.3, 0.5, 0.7, 1.0}) {
     parameters.lambda = lambda;
-    std::vector<double> v;
+    MappedVector<double> v;
     sum_light(fork.plant, fork.light, fork.sums);
     allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, v);
     const double root = 0.5 + 2.0 * 1.75;
@@ -72,7 +72,7 @@ TEST_CASE("Borchert-Honda: a fork shares by lambda times light") {
 }
 
 TEST_CASE("priority: the weights of Palubicki et al. for ten items") {
-  const std::vector<double> expected = {.8012, .6024, .4036, .2048, .006, .006, .006, .006, .006, .006};
+  const MappedVector<double> expected = {.8012, .6024, .4036, .2048, .006, .006, .006, .006, .006, .006};
   for (std::size_t i = 1; i <= 10; ++i) {
     CHECK(std::abs(priority_weight(i, 10, 1.0, 0.006, 0.5) - expected[i - 1]) < 1e-12);
   }
@@ -103,7 +103,7 @@ TEST_CASE("priority: the terminal bud leads whatever its light, until it no long
   Fork fork;
   Parameters parameters;
   parameters.kappa = 1.0;
-  std::vector<double> v;
+  MappedVector<double> v;
   const auto weight = [&](std::size_t place) { return priority_weight(place, 3, 1.0, 0.006, 1.0); };
 
   // Terminal (0.5), then by mean light: the lateral axis (1.0) and the axillary bud (0.25).
@@ -126,13 +126,13 @@ TEST_CASE("priority: among equals the one nearest the tip leads, the terminal bu
   add_node(plant, 1, 0);
   plant.buds = {
       {.node = 1, .is_terminal = false}, {.node = 2, .is_terminal = false}, {.node = 2, .is_terminal = true}};
-  const std::vector<double> light = {1.0, 1.0, 1.0};
+  const MappedVector<double> light = {1.0, 1.0, 1.0};
   LightSums sums;
   sum_light(plant, light, sums);
   Parameters parameters;
   parameters.kappa = 1.0;
   parameters.terminal_first_until = 0;
-  std::vector<double> v;
+  MappedVector<double> v;
   allocate_priority(plant, light, sums, parameters, 1, v);
   CHECK(v[2] > v[1]);
   CHECK(v[1] > v[0]);
@@ -144,19 +144,19 @@ TEST_CASE("allocation: in the dark nobody gets anything") {
   sum_light(fork.plant, fork.light, fork.sums);
   Parameters parameters;
   parameters.alpha0 = 3.0;
-  std::vector<double> v;
+  MappedVector<double> v;
   allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, v);
-  CHECK(v == std::vector<double>{0, 0, 0});
+  CHECK(v == MappedVector<double>{0, 0, 0});
   sum_light(fork.plant, fork.light, fork.sums);
   allocate_priority(fork.plant, fork.light, fork.sums, parameters, 1, v);
-  CHECK(v == std::vector<double>{0, 0, 0});
+  CHECK(v == MappedVector<double>{0, 0, 0});
 }
 
 TEST_CASE("Borchert-Honda: a demand by mean light counts n (Q / n)^exponent a side, and 1 is the sum's") {
   Fork fork;
   Parameters parameters;
   parameters.lambda = 0.6;
-  std::vector<double> by_sum, v;
+  MappedVector<double> by_sum, v;
   allocate_borchert_honda(fork.plant, fork.light, fork.sums, parameters, 1, by_sum);
   sum_light(fork.plant, fork.light, fork.sums);
   parameters.demand = Demand::mean;
@@ -218,8 +218,8 @@ TEST_CASE("light sums: many buds at many nodes, shared among threads, add up as 
   plant.buds.clear();
   plant.bud_direction.clear();
   Rng random = Rng::stream(3, Stream::dart, 0);
-  std::vector<double> light;
-  std::vector<double> expected = {0.0};
+  MappedVector<double> light;
+  MappedVector<double> expected = {0.0};
   for (std::uint32_t node = 1; node < 20000; ++node) {
     add_node(plant, node - 1, 0);
     expected.push_back(0.0);
@@ -229,7 +229,7 @@ TEST_CASE("light sums: many buds at many nodes, shared among threads, add up as 
       expected[node] += light.back();
     }
   }
-  std::vector<double> alone = expected;
+  MappedVector<double> alone = expected;
   for (std::size_t node = expected.size(); node-- > 1;) expected[node - 1] += expected[node];
   LightSums sums;
   for (int again = 0; again < 2; ++again)

@@ -18,9 +18,9 @@ TreeParameters parameters_with(double r, double theta_deg, Tie tie) {
   return parameters;
 }
 
-std::vector<double> sensed(const Plant& plant, const Parameters& parameters, const ShadowGrid& shadow,
-                           int step = 1) {
-  std::vector<double> light;
+MappedVector<double> sensed(const Plant& plant, const Parameters& parameters, const ShadowGrid& shadow,
+                            int step = 1) {
+  MappedVector<double> light;
   sense_light(plant, parameters, parameters, LightField(shadow, parameters.shadow, 1), step, light);
   return light;
 }
@@ -39,7 +39,7 @@ TEST_CASE("light: nothing shades itself and everything below is shaded") {
   add_node(plant, 0, 0, {0, -2, 0});
   add_bud(plant, {.node = 1, .site = shadow.site_of({0, -2, 0})});
   shadow.cast(std::vector<Coord>{{0, 0, 0}, {0, -2, 0}});
-  const std::vector<double> light = sensed(plant, parameters, shadow);
+  const MappedVector<double> light = sensed(plant, parameters, shadow);
   CHECK(light[0] == 1.0);
   CHECK(std::abs(light[1] - 0.95) < 1e-5);  // 1 - 0.2 / 4
 }

@@ -12,7 +12,7 @@ using namespace ramify::growth;
 namespace {
 
 /// Makes shoots with this vigour a bud in an unshaded world.
-void grow(Plant& plant, const Parameters& parameters, const std::vector<double>& vigour, int step = 1) {
+void grow(Plant& plant, const Parameters& parameters, const MappedVector<double>& vigour, int step = 1) {
   ShadowGrid shadow({}, parameters.voxel_edge());
   const LightField field(shadow, parameters.shadow, 1);
   Barriers barriers(parameters);
@@ -99,7 +99,7 @@ TEST_CASE("shoots: thousands at once make whole plants, whatever buds a tip has"
         Plant plant = seedling(parameters.planted().front(), 0);
         for (int step = 1; step < 30 && plant.buds.size() < 3000; ++step) {
           // Some rest, some make one metamer and some two.
-          std::vector<double> vigour(plant.buds.size());
+          MappedVector<double> vigour(plant.buds.size());
           for (std::size_t i = 0; i < vigour.size(); ++i) vigour[i] = double((i + 1) % 3) + 0.5;
           grow(plant, parameters, vigour, step);
         }
@@ -141,7 +141,7 @@ TEST_CASE("shoots: the last node bears both buds, or the terminal alone until it
 
   Plant plant = grown(parameters, 3.0);
   CHECK(plant.buds.size() == 4);
-  std::vector<double> vigour(plant.buds.size(), 0.0);
+  MappedVector<double> vigour(plant.buds.size(), 0.0);
   vigour.back() = 1.0;
   CHECK(plant.buds.back().is_terminal);
   grow(plant, parameters, vigour, 2);
@@ -184,7 +184,7 @@ TEST_CASE("shoots: an obstacle stops a shoot, and kills a bud that it blocks at 
   CHECK(plant.buds.back().is_terminal);
 
   // A wall thinner than an internode is not jumped.
-  std::vector<double> vigour(plant.buds.size(), 0.0);
+  MappedVector<double> vigour(plant.buds.size(), 0.0);
   vigour.back() = 3.0;
   grow(plant, parameters, vigour, 2);
   CHECK(plant.internode_count() == 2);
@@ -201,7 +201,7 @@ TEST_CASE("shoots: tropisms act on their axis orders alone, and plagiotropism ta
   const Vec3 trunk = plant.position[1] - plant.position[0];
   CHECK(std::abs(trunk.x - trunk.y) < 1e-9);
 
-  std::vector<double> vigour(plant.buds.size(), 0.0);
+  MappedVector<double> vigour(plant.buds.size(), 0.0);
   const Vec3 bud(plant.bud_direction[0]);
   REQUIRE_FALSE(plant.buds[0].is_terminal);
   vigour[0] = 1.0;
@@ -262,7 +262,7 @@ TEST_CASE("shoots: a sympodial axis goes on from the axillary bud at its tip") {
     REQUIRE(tip.is_terminal);
     CHECK(tip.node == 3);
     CHECK(std::abs(degrees(std::acos(double(plant.bud_direction.back().y))) - 30.0) < 1e-3);
-    std::vector<double> vigour(plant.buds.size(), 0.0);
+    MappedVector<double> vigour(plant.buds.size(), 0.0);
     vigour.back() = 2.0;
     grow(plant, parameters, vigour, 2);
     CHECK(plant.axes.size() == 1);  // the same axis
@@ -288,7 +288,7 @@ TEST_CASE("buds: one that has rested for bud_lifespan steps dies, one that grew 
   CasterChanges changes;
   abort_buds(plant, parameters, parameters, shadow, 3, changes);
   CHECK(dead_buds(plant) == 0);
-  std::vector<double> vigour(plant.buds.size(), 0.0);
+  MappedVector<double> vigour(plant.buds.size(), 0.0);
   vigour.back() = 1.0;
   grow(plant, parameters, vigour, 3);
   CHECK(plant.buds.size() == 4);
@@ -305,7 +305,7 @@ TEST_CASE("buds: one that has rested for bud_lifespan steps dies, one that grew 
 
 TEST_CASE("shoots: the planner finds every bud with resource, in order, however few it is asked for") {
   Plant plant = ramify::test::seedling();
-  std::vector<double> vigour = {0.0};
+  MappedVector<double> vigour = {0.0};
   std::vector<std::uint32_t> growing;
   for (std::uint32_t bud = 1; bud < 10000; ++bud) {
     ramify::test::add_bud(plant, {.node = 0, .is_terminal = true});
