@@ -191,8 +191,6 @@ PlainTree::PlainTree(const Parameters& parameters, Field field)
   root_->terminal_bud->reference = Vec3f(perpendicular_at(kUp, azimuth));
 }
 
-PlainTree::PlainTree(PlainTree&&) noexcept = default;
-
 PlainTree::~PlainTree() = default;
 
 void PlainTree::grow() {

@@ -25,7 +25,6 @@ class PlainTree {
   /// The same in a dense field, as the quickest public program has it: so many voxels each way, the root in
   /// the middle of the ground. Throws InputError also for shedding, and grow() where shadows leave the field.
   PlainTree(const growth::Parameters& parameters, int voxels);
-  PlainTree(PlainTree&& other) noexcept;
   ~PlainTree();
 
   /// All steps, then light and resource for the youngest too, and the widths: what growth::Engine::run()

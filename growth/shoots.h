@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/bulk.h"
 #include "growth/barriers.h"
 #include "growth/environment_light.h"
 #include "growth/plant.h"
