@@ -104,9 +104,11 @@ int priority_steps(const Options& options) {
 
 void register_trees(Results& results, const Options& options) {
   const int repetitions = options.is_quick ? 2 : 3;
+  const int many = options.is_quick ? 2 : 7;  // for ratios that hardly differ from their goals
   const auto add = [&](const std::string& name, int steps, Trial trial) {
+    const bool is_compared = trial.work == kGrowth && (steps == kMediumSteps || steps == kFullSteps);
     trial.assignments.insert(trial.assignments.begin(), steps_assignment(steps));
-    register_trial(results, name, repetitions, trial);
+    register_trial(results, name, is_compared ? many : repetitions, trial);
   };
   for (const int steps : kSizes) {
     if (options.is_quick && steps > kQuickSteps) continue;
@@ -125,7 +127,7 @@ void register_trees(Results& results, const Options& options) {
   const std::vector<std::string> priority = {"growth.allocation=priority"};
   add(priority_name(priority_steps(options)), priority_steps(options),
       {.work = kGrowth, .assignments = priority});
-  register_trial(results, kSpace, repetitions, {.work = kGrowth, .assignments = space_assignments()});
+  register_trial(results, kSpace, many, {.work = kGrowth, .assignments = space_assignments()});
 
   add(plain_name(kMediumSteps), kMediumSteps, {.work = kPlain});
   const Trial plain{.work = kPlain, .assignments = {steps_assignment(kFullSteps)}};
