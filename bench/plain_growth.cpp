@@ -157,7 +157,7 @@ bool PlainTree::Shoots::grow(const GrowingBud& bud, std::uint32_t next_axis) {
     place_buds(p_, p_.seed, angles_, frame, tip.axis_id, ++tip.rank,
                std::span(&child->axillary_bud->direction, 1));
     node = child.get();
-    tree_.uncast_.push_back(node);
+    if (std::holds_alternative<DenseShadow>(tree_.shadow_)) tree_.uncast_.push_back(node);
   }
   if (node == bud.node) return false;
   tip.direction = Vec3f(frame.direction);
@@ -234,12 +234,12 @@ void PlainTree::sense() {
 void PlainTree::cast_shadows() {
   if (auto* const dense = std::get_if<DenseShadow>(&shadow_)) {
     for (const Node* node : uncast_) dense->cast(dense->voxel_of(node->position));
+    uncast_.clear();
   } else {
     auto& sparse = std::get<PlainShadow>(shadow_);
     sparse.clear();
     cast_shadows(*root_, sparse);
   }
-  uncast_.clear();
 }
 
 void PlainTree::cast_shadows(const Node& node, PlainShadow& shadow) {
