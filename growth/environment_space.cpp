@@ -43,33 +43,38 @@ double occupied_radius(const TreeParameters& tree, int step) {
 void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step, SpaceSearch& search) {
   std::vector<Seeker>& seekers = search.seekers;
   seekers.clear();
+  search.buds.clear();
+  search.ends.clear();
   for (GrowingTree& tree : trees) {
-    tree.light.assign(tree.plant.buds.size(), 0.0);
-    tree.space.resize(tree.plant.buds.size());
+    set_size(tree.light, tree.plant.buds.size());
+    set_size(tree.space, tree.plant.buds.size());
+    std::fill(tree.light.begin(), tree.light.end(), 0.0);
     const double radius = tree.place.r.at(step) * tree.place.internode_length.at(step);
     const double min_cosine = std::cos(radians(tree.place.theta_deg.at(step) / 2.0));
     for (std::size_t i = 0; i < tree.plant.buds.size(); ++i) {
       const Bud& bud = tree.plant.buds[i];
-      const Vec3f& direction = tree.plant.bud_direction[i];
-      tree.space[i] = direction;
       if (bud.is_blind) continue;
       const Vec3& position = tree.plant.position[bud.node];
       if (markers.is_barren(position)) continue;
-      seekers.push_back({position, Vec3(direction), radius, min_cosine});
-      tree.light[i] = 1.0;  // that it looks; for the second pass
+      seekers.push_back({position, Vec3(tree.plant.bud_direction[i]), radius, min_cosine});
+      search.buds.push_back(static_cast<std::uint32_t>(i));
     }
+    search.ends.push_back(seekers.size());
   }
 
   markers.claim(seekers, search.claims);
-  auto claim = search.claims.cbegin();
-  for (GrowingTree& tree : trees) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    GrowingTree& tree = trees[i];
     const bool is_final = sight_never_widens(tree.place, step);
-    for (std::size_t i = 0; i < tree.light.size(); ++i) {
-      if (tree.light[i] == 0.0) continue;
-      tree.light[i] = claim->markers > 0 ? 1.0 : 0.0;
-      tree.space[i] = Vec3f(claim->direction);
-      tree.plant.buds[i].is_blind = is_final && claim->is_blind;
-      ++claim;
+    for (; next < search.ends[i]; ++next) {
+      const Claim& claim = search.claims[next];
+      const std::uint32_t bud = search.buds[next];
+      if (claim.markers > 0) {
+        tree.light[bud] = 1.0;
+        tree.space[bud] = Vec3f(claim.direction);
+      }
+      tree.plant.buds[bud].is_blind = is_final && claim.is_blind;
     }
   }
 }

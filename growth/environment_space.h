@@ -17,12 +17,14 @@ double occupied_radius(const TreeParameters& tree, int step);
 
 /// Working arrays of sense_space(), so that they need not be made anew in each step.
 struct SpaceSearch {
-  std::vector<Seeker> seekers;
+  std::vector<Seeker> seekers;      // of all trees, tree by tree
+  std::vector<std::uint32_t> buds;  // of each seeker, in its tree
+  std::vector<std::size_t> ends;    // of each tree's seekers
   std::vector<Claim> claims;
 };
 
 /// Gives each marker to the nearest bud of any tree that sees it. Sets Q of each bud, 1 with a marker and 0
-/// without, and V, towards its markers.
+/// without, and V of those with a marker, towards their markers.
 void sense_space(std::vector<GrowingTree>& trees, Markers& markers, int step, SpaceSearch& search);
 
 }  // namespace ramify::growth

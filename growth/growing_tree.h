@@ -18,7 +18,7 @@ struct GrowingTree {
   // As last sensed, one entry a bud
   MappedVector<double> light;   // Q
   MappedVector<double> vigour;  // v
-  std::vector<Vec3f> space;     // V; with environment = space only
+  MappedVector<Vec3f> space;    // V where Q > 0; with environment = space only
 
   LightSums sums;                     // as allocation leaves them
   double resource = 0.0;              // v at the root

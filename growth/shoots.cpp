@@ -150,7 +150,11 @@ class Tracer {
   Vec3 optimal_at(std::uint32_t bud, const Vec3& apex, const Vec3& axis) const {
     if (w_optimal_ <= 0.0) return Vec3(0.0);
     const bool is_light = guides_.world.environment == Environment::light;
-    return w_optimal_ * (is_light ? seeker_.best_direction(apex, axis) : Vec3(guides_.space[bud]));
+    return w_optimal_ * (is_light ? seeker_.best_direction(apex, axis) : towards_markers(bud));
+  }
+
+  Vec3 towards_markers(std::uint32_t bud) const {
+    return Vec3(guides_.exposure[bud] > 0.0 ? guides_.space[bud] : plant_.bud_direction[bud]);
   }
 
   Vec3 next_direction(const Vec3& axis, const Vec3& pull) const {

@@ -66,7 +66,9 @@ struct Guides {
   std::uint64_t seed = 1;  // the tree's
   const Barriers& barriers;
   const LightField& light;
-  const std::vector<Vec3f>& space;  // V of each bud; with environment = space only
+  // With environment = space only: Q of each bud, and V where Q > 0. Others go on where they point.
+  const MappedVector<double>& exposure;
+  const MappedVector<Vec3f>& space;
 };
 
 /// Follows each shoot to its end: P09 4.3's weighted sum of default, optimal and tropism direction.

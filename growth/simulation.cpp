@@ -150,7 +150,7 @@ void Simulation::close_holes() {
 
 void Simulation::extend(GrowingTree& tree, int step) {
   Plant& plant = tree.plant;
-  const Guides guides{world_, tree.place, tree.place.seed, barriers_, field_, tree.space};
+  const Guides guides{world_, tree.place, tree.place.seed, barriers_, field_, tree.light, tree.space};
   ShootPlanner planner(plant, tree.vigour, tree.place, step);
   const std::size_t first = plant.node_count();
   std::vector<Shoot> shoots = planner.next(kShootsAtOnce);

@@ -17,9 +17,10 @@ void grow(Plant& plant, const Parameters& parameters, const MappedVector<double>
   const LightField field(shadow, parameters.shadow, 1);
   Barriers barriers(parameters);
   barriers.set_step(step);
-  const std::vector<Vec3f> space;
+  const MappedVector<double> exposure;
+  const MappedVector<Vec3f> space;
   std::vector<Shoot> shoots = ShootPlanner(plant, vigour, parameters, step).next(100'000);
-  const Guides guides{parameters, parameters, parameters.seed, barriers, field, space};
+  const Guides guides{parameters, parameters, parameters.seed, barriers, field, exposure, space};
   const Traces traces = trace_shoots(shoots, plant, guides, step);
   CasterChanges changes;
   build_shoots(plant, shoots, traces, parameters, parameters, shadow, step, changes);
@@ -241,9 +242,10 @@ TEST_CASE("shoots: the best direction is looked for at each metamer, or once a s
     shadow.cast(std::vector<Coord>{{1, 2, 0}, {1, 3, 0}, {2, 3, 1}});
     const LightField field(shadow, ShadowModel::additive, 1);
     Barriers barriers(parameters);
-    const std::vector<Vec3f> space;
+    const MappedVector<double> exposure;
+    const MappedVector<Vec3f> space;
     std::vector<Shoot> shoots = ShootPlanner(plant, {4.0}, parameters, 1).next(1000);
-    const Guides guides{parameters, parameters, 1, barriers, field, space};
+    const Guides guides{parameters, parameters, 1, barriers, field, exposure, space};
     return trace_shoots(shoots, plant, guides, 1).position.back();
   };
   CHECK(glm::length(end(OptimalPer::metamer) - end(OptimalPer::shoot)) > 0.01);
