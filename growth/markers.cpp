@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cassert>
@@ -23,6 +24,9 @@ constexpr double kMarkersMax = 1 << 28;
 
 // A solid that passes check_volume() fills at least a hundred-thousandth of its box.
 constexpr int kDrawsMax = 10'000'000;
+
+// Points that the solid is asked about at once.
+constexpr std::size_t kDrawnAtOnce = 256;
 
 // Sums of unit vectors shorter than this have cancelled out.
 constexpr double kShortestSum = 1e-6;
@@ -71,16 +75,26 @@ void draw_offsets(const Solid& solid, const Box& box, std::uint64_t seed, std::s
   drawers.reserve(offsets.size());
   for (std::size_t i = 0; i < offsets.size(); ++i)
     drawers.push_back({i, Rng::stream(seed, Stream::marker, first + i)});
+  std::array<Vec3, kDrawnAtOnce> points;
+  std::array<std::uint8_t, kDrawnAtOnce> is_inside;
   for (int draw = 0; draw < kDrawsMax && !drawers.empty(); ++draw) {
     std::size_t outside = 0;
-    for (Drawer drawer : drawers) {
-      const double x = drawer.random.uniform();
-      const double y = drawer.random.uniform();
-      const double z = drawer.random.uniform();
-      const Vec3f offset(size * Vec3(x, y, z));
-      offsets[drawer.marker] = offset;
-      drawers[outside] = drawer;
-      outside += !solid.contains(box.low + Vec3(offset));
+    for (std::size_t begin = 0; begin < drawers.size(); begin += kDrawnAtOnce) {
+      const std::span<Drawer> some =
+          std::span(drawers).subspan(begin, std::min(kDrawnAtOnce, drawers.size() - begin));
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        const double x = some[i].random.uniform();
+        const double y = some[i].random.uniform();
+        const double z = some[i].random.uniform();
+        const Vec3f offset(size * Vec3(x, y, z));
+        offsets[some[i].marker] = offset;
+        points[i] = box.low + Vec3(offset);
+      }
+      solid.find_inside(std::span(points).first(some.size()), std::span(is_inside).first(some.size()));
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        drawers[outside] = some[i];
+        outside += is_inside[i] == 0;
+      }
     }
     drawers.erase(drawers.begin() + static_cast<std::ptrdiff_t>(outside), drawers.end());
   }
@@ -219,12 +233,13 @@ Markers::Sight Markers::look_over(const Cone& cone, MarkerGrid::Search& search) 
 
 /// The squared distances that the best bids for four successive markers tell.
 Lanes Markers::best_squares(std::uint32_t place) {
-  const auto square = [&](std::uint32_t marker) {
-    const std::atomic_ref<std::uint64_t> best(best_[marker]);
-    return static_cast<std::uint32_t>(best.load(std::memory_order_relaxed) >> 32);
+  const auto bid = [&](std::uint32_t marker) {
+    return std::atomic_ref<std::uint64_t>(best_[marker]).load(std::memory_order_relaxed);
   };
-  return std::bit_cast<Lanes>(
-      LaneNumbers{square(place), square(place + 1), square(place + 2), square(place + 3)});
+  using Bids = std::uint64_t __attribute__((vector_size(16)));
+  const auto low = reinterpret_cast<Lanes>(Bids{bid(place), bid(place + 1)});
+  const auto high = reinterpret_cast<Lanes>(Bids{bid(place + 2), bid(place + 3)});
+  return __builtin_shuffle(low, high, LaneMask{1, 3, 5, 7});
 }
 
 /// Bids for those that it sees indeed; says how many it won and puts them behind `won`. Sieved without a

@@ -35,6 +35,13 @@ bool Solid::contains(const Vec3& point) const {
   return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.contains(point); });
 }
 
+void Solid::find_inside(std::span<const Vec3> points, std::span<std::uint8_t> is_inside) const {
+  std::fill(is_inside.begin(), is_inside.end(), std::uint8_t{0});
+  for (const Part& part : parts_) {
+    for (std::size_t i = 0; i < points.size(); ++i) is_inside[i] |= part.contains(points[i]);
+  }
+}
+
 double Solid::distance_bound(const Vec3& point) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Part& part : parts_) least = std::min(least, part.distance_bound(point));

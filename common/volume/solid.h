@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/base/geometry.h"
@@ -24,6 +25,9 @@ class Solid {
 
   /// A point on the surface is inside.
   bool contains(const Vec3& point) const;
+
+  /// contains() of each point, 1 or 0, for less than as many calls cost; the spans are as long.
+  void find_inside(std::span<const Vec3> points, std::span<std::uint8_t> is_inside) const;
 
   /// Its sign tells outside from inside, and a point is at least that far from the surface, on either side.
   /// Metres; infinite for a solid without parts.
