@@ -231,7 +231,7 @@ Markers::Sight Markers::look_over(const Cone& cone, MarkerGrid::Search& search) 
   return {sign_bits(is_any) != 0, {candidates, count}};
 }
 
-/// The squared distances that the best bids for four successive markers tell.
+/// The squared distances that the best bids for four successive markers tell: their higher halves.
 Lanes Markers::best_squares(std::uint32_t place) {
   const auto bid = [&](std::uint32_t marker) {
     return std::atomic_ref<std::uint64_t>(best_[marker]).load(std::memory_order_relaxed);
@@ -239,7 +239,8 @@ Lanes Markers::best_squares(std::uint32_t place) {
   using Bids = std::uint64_t __attribute__((vector_size(16)));
   const auto low = reinterpret_cast<Lanes>(Bids{bid(place), bid(place + 1)});
   const auto high = reinterpret_cast<Lanes>(Bids{bid(place + 2), bid(place + 3)});
-  return __builtin_shuffle(low, high, LaneMask{1, 3, 5, 7});
+  constexpr int kHigher = std::endian::native == std::endian::little ? 1 : 0;
+  return __builtin_shufflevector(low, high, kHigher, 2 + kHigher, 4 + kHigher, 6 + kHigher);
 }
 
 /// Bids for those that it sees indeed; says how many it won and puts them behind `won`. Sieved without a

@@ -1,11 +1,13 @@
 // Boxes, differences, intersections, transforms, and segments that meet a solid.
 
+#include <algorithm>
 #include <numbers>
 #include <string>
 
 #include "common/base/errors.h"
 #include "common/config/toml_reader.h"
 #include "common/config/toml_writer.h"
+#include "common/volume/solid.h"
 #include "tests/catch.h"
 #include "tests/common/solids.h"
 
@@ -14,6 +16,7 @@ using ramify::test::check_meets;
 using ramify::test::is_near;
 using ramify::test::known_compositions;
 using ramify::test::known_shapes;
+using ramify::test::known_volumes;
 using ramify::test::KnownVolume;
 using ramify::test::points_around;
 using ramify::test::problem_of;
@@ -212,6 +215,22 @@ TEST_CASE("solid: depth in an unevenly scaled part is right at flat faces and ne
   const Volume dome{.shape = Shape::hemisphere, .scale = {1, 3, 1}};
   CHECK(is_near(outer_depth(dome, {0, 2.9, 0}), 0.1, 1e-12));
   CHECK(is_near(outer_depth(dome, {0.9, 0.5, 0}), 0.086, 0.005));
+}
+
+TEST_CASE("solid: many points asked at once are each in or out as when asked alone") {
+  std::vector<Volume> volumes;
+  for (const KnownVolume& known : known_volumes()) volumes.push_back(known.volume);
+  volumes.push_back({.shape = Shape::union_of, .parts = {volumes.front(), volumes.back()}});
+  for (const Volume& volume : volumes) {
+    const Solid solid(volume);
+    const std::vector<Vec3> points = points_around(volume, 1000);
+    std::vector<std::uint8_t> is_inside(points.size(), 7);
+    solid.find_inside(points, is_inside);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) different += is_inside[i] != solid.contains(points[i]);
+    CHECK(different == 0);
+    CHECK(std::ranges::count(is_inside, 1) > 0);
+  }
 }
 
 TEST_CASE("solid: a segment meets a shape exactly where a dense row of points does") {
