@@ -47,11 +47,12 @@ Places find_places(const Skeleton& skeleton) {
     }
     const bool goes_on = is_of_parents && parent >= roots;
     places.base[axes] = parent;
-    places.count[axes] = 1;
     const std::uint32_t axis = goes_on ? places.axis[parent] : axes;
+    const std::uint32_t point = goes_on ? places.point[parent] + 1 : 1;
     axes += goes_on ? 0 : 1;
     places.axis[node] = axis;
-    places.point[node] = places.count[axis]++;
+    places.point[node] = point;
+    places.count[axis] = point + 1;
   }
   places.base.resize(axes);
   places.count.resize(axes);
