@@ -20,8 +20,19 @@ start() {
   LD_PRELOAD=${preloaded-} "$program" view --driven "$@" > "$log" 2> "$work/errors" &
   process=$!
   wait_for READY
-  window=$(xdotool search --sync --name '^ramify$' | tail -1)
+  window=$(find_window) || fail "no window is named ramify"
   xdotool windowfocus "$window"
+}
+
+# Tries again: a search ends with an error if a window that it meets is closed meanwhile, such as one of the program before.
+find_window() {
+  local i found
+  for ((i = 0; i < 40 * patience; ++i)); do
+    found=$(xdotool search --name '^ramify$' 2> /dev/null | tail -1) || found=
+    [[ -n $found ]] && echo "$found" && return
+    sleep 0.25
+  done
+  return 1
 }
 
 # wait_for PATTERN [LINES]: until such a line comes after the first LINES of the log.
