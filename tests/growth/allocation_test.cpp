@@ -72,7 +72,7 @@ TEST_CASE("Borchert-Honda: a fork shares by lambda times light") {
 }
 
 TEST_CASE("priority: the weights of Palubicki et al. for ten items") {
-  const MappedVector<double> expected = {.8012, .6024, .4036, .2048, .006, .006, .006, .006, .006, .006};
+  const std::vector<double> expected = {.8012, .6024, .4036, .2048, .006, .006, .006, .006, .006, .006};
   for (std::size_t i = 1; i <= 10; ++i) {
     CHECK(std::abs(priority_weight(i, 10, 1.0, 0.006, 0.5) - expected[i - 1]) < 1e-12);
   }
