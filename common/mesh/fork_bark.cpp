@@ -5,6 +5,7 @@
 #include <map>
 
 #include "common/base/parallel.h"
+#include "common/mesh/bark_stretches.h"
 #include "common/mesh/joints.h"
 #include "common/mesh/nearest_triangle.h"
 
@@ -16,6 +17,10 @@ constexpr float kFade = 0.6f;
 
 // What fades out does so over triangles shorter than this, in fades: else there is no collar.
 constexpr float kLongest = 4.0f;
+
+// Where a lateral goes straight out, the bearer's bark is stretched along it: what is missing of it then
+// counts so often towards the fade.
+constexpr float kAgainstStretch = 2.0f;
 
 // In radii of the lateral: how far above its surface.
 constexpr float kAbove = 0.004f;
@@ -76,8 +81,14 @@ struct Patch {
 
 class PatchMaker {
  public:
-  PatchMaker(const Mesh& mesh, const Skeleton& skeleton, const Joint& joint, float repeats)
-      : mesh_(mesh), skeleton_(skeleton), joint_(joint), repeats_(repeats), fade_(kFade * joint.radius) {}
+  PatchMaker(const Mesh& mesh, const Skeleton& skeleton, const BarkStretches& stretches, const Joint& joint,
+             float repeats)
+      : mesh_(mesh),
+        skeleton_(skeleton),
+        stretches_(stretches),
+        joint_(joint),
+        repeats_(repeats),
+        fade_(kFade * joint.radius) {}
 
   Patch make(const std::vector<std::uint32_t>& bearer, const std::vector<std::uint32_t>& lateral) {
     if (bearer.empty()) return {};
@@ -111,27 +122,26 @@ class PatchMaker {
     const Vec3f& shares = nearest.shares;
     Cover cover;
     cover.uv = mesh_.uvs[a] * shares.x + mesh_.uvs[b] * shares.y + mesh_.uvs[c] * shares.z;
-    cover.uv += beyond(nearest.point, point - nearest.point);
+    const Vec2f girths = beyond(mesh_.internodes[a], nearest.point, point);
+    cover.uv += girths * repeats_;
     const Vec3f normal =
         mesh_.normals[a] * shares.x + mesh_.normals[b] * shares.y + mesh_.normals[c] * shares.z;
     cover.distance = std::sqrt(nearest.distance2);
+    const float girth = 2.0f * std::numbers::pi_v<float> * joint_.older_radius;
+    const float missing = std::max(cover.distance - glm::length(girths) * girth, 0.0f);
     // At a closed surface's border with the lateral it goes on to both sides.
     if (glm::dot(point - nearest.point, normal) < kInside * cover.distance) cover.distance *= -1.0f;
     const float from_fork = glm::distance(point, Vec3f(skeleton_.position[skeleton_.parent[joint_.lateral]]));
-    cover.opacity = (1.0f - glm::smoothstep(0.0f, fade_, cover.distance)) *
+    cover.opacity = (1.0f - glm::smoothstep(0.0f, fade_, cover.distance + kAgainstStretch * missing)) *
                     (1.0f - glm::smoothstep(0.6f * joint_.reach, joint_.reach, from_fork));
     return cover;
   }
 
-  /// What the bearer's texture coordinates change by in going `step` on from a point of its surface.
-  Vec2f beyond(const Vec3f& from, const Vec3f& step) const {
-    const Vec3f along(normalized_or(skeleton_.along(joint_.older), kUp));
-    const Vec3f apart = from - Vec3f(skeleton_.position[joint_.older]);
-    const Vec3f outwards = apart - along * glm::dot(apart, along);
-    const float radius = std::max(glm::length(outwards), 0.1f * joint_.older_radius);
-    const Vec3f around = glm::cross(along, outwards) / radius;
-    const float scale = repeats_ / (2.0f * std::numbers::pi_v<float> * radius);
-    return {glm::dot(step, around) * scale, glm::dot(step, along) * scale};
+  /// How far the bearer's chart goes on from a point of its surface, at an internode, to another: in girths.
+  Vec2f beyond(std::uint32_t internode, const Vec3f& from, const Vec3f& to) const {
+    Vec2f girths = stretches_.uv(internode, Vec3(to)) - stretches_.uv(internode, Vec3(from));
+    girths.x -= std::round(girths.x);  // the shorter way around
+    return girths;
   }
 
   /// A side that goes out straight, without rings that follow one another, shows its own bark.
@@ -166,6 +176,7 @@ class PatchMaker {
 
   const Mesh& mesh_;
   const Skeleton& skeleton_;
+  const BarkStretches& stretches_;
   const Joint& joint_;
   const float repeats_;
   const float fade_;
@@ -216,11 +227,12 @@ void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const floa
 
   const std::vector<Joint> joints = find_joints(skeleton);
   const TrianglesOfNodes triangles(mesh, *bark, skeleton.node_count(), joints);
+  const BarkStretches stretches(skeleton);
   std::vector<Patch> patches(joints.size());
   parallel_for(joints.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Joint& joint = joints[i];
-      patches[i] = PatchMaker(mesh, skeleton, joint, repeats[joint.older])
+      patches[i] = PatchMaker(mesh, skeleton, stretches, joint, repeats[joint.older])
                        .make(triangles.of(joint.older_nodes), triangles.of(joint.lateral_nodes));
     }
   });

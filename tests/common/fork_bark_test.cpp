@@ -9,6 +9,7 @@
 
 #include "common/base/parallel.h"
 #include "common/base/rng.h"
+#include "common/mesh/bark.h"
 #include "common/mesh/fork_bark.h"
 #include "common/mesh/gltf.h"
 #include "common/mesh/nearest_triangle.h"
@@ -191,6 +192,44 @@ TEST_CASE(
         }
       }
     }
+  }
+}
+
+TEST_CASE("fork bark: a bearer that is bent at the fork goes on in its own width of bark") {
+  Skeleton tree;
+  // The lateral leaves a short internode aslant and runs up along the trunk, of which it comes out little by
+  // little.
+  const std::vector<Vec3> trunk = {{0, 0, 0},      {0, 0.5, 0}, {0, 0.8, 0}, {0.12, 0.95, 0},
+                                   {0.04, 1.2, 0}, {0, 1.7, 0}, {0, 2.2, 0}};
+  for (std::uint32_t i = 0; i < trunk.size(); ++i)
+    add_node(tree, trunk[i], i == 0 ? kNoParent : i - 1, kTrunk);
+  const std::vector<Vec3> lateral = {{0.12, 1.2, 0.03}, {0.1, 1.5, 0.04}, {0.2, 1.8, 0.2}, {0.4, 2.0, 0.5}};
+  for (std::uint32_t i = 0; i < lateral.size(); ++i)
+    add_node(tree, lateral[i], i == 0 ? 3 : 6 + i, 0.8 * kTrunk);
+  assign_axes(tree);
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::watertight}) {
+    Looks looks = looks_with(method);
+    looks.mesher.voxel_size = 0.02;
+    const Mesh mesh = mesh_of(tree, looks);
+    const MaterialRange* overlay = overlay_of(mesh);
+    REQUIRE(overlay != nullptr);
+    const double a_metre = bark_repeats(tree, looks.bark.tile_width)[3] / (std::numbers::pi * kTrunk);
+    double longest = 0.0;
+    double squeezed = 0.0;
+    for (std::size_t t = overlay->first_triangle; t < mesh.triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = mesh.triangles[t][i];
+        const std::uint32_t b = mesh.triangles[t][(i + 1) % 3];
+        const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
+        if (std::min(mesh.colors[a][3], mesh.colors[b][3]) < 128 || length < 0.005) continue;
+        const double texture = glm::distance(mesh.uvs[a], mesh.uvs[b]) / a_metre;
+        longest += length;
+        if (texture > 1.6 * length) squeezed += length;
+      }
+    }
+    INFO(static_cast<int>(method));
+    CHECK(longest > 1.0);
+    CHECK(squeezed < 0.02 * longest);
   }
 }
 
