@@ -8,10 +8,15 @@ log=$work/window.log
 export XDG_CONFIG_HOME=$work/config
 
 fail() {
+  trap - ERR
   echo "$(basename "$0"): $1" >&2
+  kill -0 "${process-0}" 2> /dev/null && echo "the program is still running, its window was ${window-not found yet}" >&2
   tail -n 5 "$log" "$work/errors" >&2 || true
   exit 1
 }
+# What ends this script otherwise, such as xdotool without a window, tells as much.
+set -o errtrace
+trap 'fail "line $LINENO: $BASH_COMMAND failed"' ERR
 
 # start ARGUMENT...: opens the window and waits until its trees are on show.
 start() {
