@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "common/mesh/tube_plan.h"
 
@@ -15,6 +16,9 @@ constexpr double kLeastSine = 0.35;
 // In radii of both: laterals that leave an axis so near to one another meet.
 constexpr double kBeside = 1.5;
 
+// In those: so far an axis is followed that begins farther down.
+constexpr double kAlong = 3.0;
+
 class JointFinder {
  public:
   explicit JointFinder(const Skeleton& skeleton)
@@ -22,6 +26,7 @@ class JointFinder {
 
   std::vector<Joint> find() {
     const double thickest = *std::max_element(skeleton_.diameter.begin(), skeleton_.diameter.end());
+    std::vector<std::uint32_t> laterals;
     for (std::uint32_t node = 0; node < first_.size(); ++node) {
       const std::uint32_t parent = skeleton_.parent[node];
       first_[node] = node;
@@ -30,9 +35,10 @@ class JointFinder {
         first_[node] = first_[parent];
         next_[parent] = node;
       } else if (skeleton_.diameter[node] >= kLeastCollar * thickest) {
-        add_lateral(node);
+        laterals.push_back(node);
       }
     }
+    for (const std::uint32_t lateral : laterals) add_lateral(lateral);
     for (Joint& joint : joints_) {
       joint.lateral_nodes = nodes_around(joint.lateral, joint.reach);
       joint.older_nodes = nodes_around(joint.older, joint.reach);
@@ -48,7 +54,8 @@ class JointFinder {
     while (!skeleton_.is_root(fork)) {
       const std::uint32_t older = first_[fork];
       for (const std::uint32_t beside : laterals_[older]) {
-        if (beside != bearer && is_near(lateral, beside)) add(lateral, beside);
+        if (beside == bearer) continue;
+        if (const auto node = node_near(lateral, beside)) add(lateral, *node);
       }
       add(lateral, fork);
       if (!is_near(lateral, older)) break;
@@ -57,11 +64,34 @@ class JointFinder {
     laterals_[bearer].push_back(lateral);
   }
 
+  /// Metres, from where a lateral begins to a node.
+  double distance(std::uint32_t lateral, std::uint32_t node) const {
+    return glm::distance(skeleton_.position[skeleton_.parent[lateral]], skeleton_.position[node]);
+  }
+
+  /// Within this many metres of where a lateral begins other wood meets it.
+  double nearness(std::uint32_t lateral, std::uint32_t other) const {
+    return kBeside * 0.5 * (skeleton_.diameter[lateral] + skeleton_.diameter[other]);
+  }
+
   /// Whether two axes begin so near to one another that they meet.
   bool is_near(std::uint32_t lateral, std::uint32_t other) const {
-    const double apart = glm::distance(skeleton_.position[skeleton_.parent[other]],
-                                       skeleton_.position[skeleton_.parent[lateral]]);
-    return apart < kBeside * 0.5 * (skeleton_.diameter[lateral] + skeleton_.diameter[other]);
+    return distance(lateral, skeleton_.parent[other]) < nearness(lateral, other);
+  }
+
+  /// The first of an axis's nodes at which it is so near, if one is: it may begin farther down and run along
+  /// the bearer.
+  std::optional<std::uint32_t> node_near(std::uint32_t lateral, std::uint32_t beside) const {
+    const double near = nearness(lateral, beside);
+    const double apart = distance(lateral, skeleton_.parent[beside]);
+    if (apart < near) return beside;
+    double left = kAlong * near;
+    if (apart > left + near) return std::nullopt;
+    for (std::uint32_t node = beside; node != kNoParent && left >= 0.0; node = next_[node]) {
+      if (distance(lateral, node) < near) return node;
+      left -= skeleton_.length(node);
+    }
+    return std::nullopt;
   }
 
   void add(std::uint32_t lateral, std::uint32_t older) {

@@ -8,8 +8,8 @@
 
 namespace ramify {
 
-/// A lateral and older wood: its bearer, a lateral that leaves that beside it or, where the bearer has just
-/// begun, what bears that.
+/// A lateral and older wood: its bearer, a lateral that leaves that beside it or comes by there or, where the
+/// bearer has just begun, what bears that.
 struct Joint {
   std::uint32_t lateral = 0;  // its first node
   std::uint32_t older = 0;    // a node of the older axis, near

@@ -122,7 +122,9 @@ TEST_CASE("compare: a preset is at no distance from itself") {
   const Outcome outcome =
       run_program("compare s4-fig8 s4-fig8 -o out --json --quiet", folder.path().string());
   REQUIRE(outcome.code == 0);
-  for (const json& distance : json::parse(outcome.out)["distances"]) {
+  const json found = json::parse(outcome.out);
+  REQUIRE_FALSE(found["distances"].empty());
+  for (const json& distance : found["distances"]) {
     CHECK(distance["between"] == 0.0);
     CHECK(distance["between_over_within"].is_null());
     CHECK(distance["b"] == "s4-fig8 (2)");

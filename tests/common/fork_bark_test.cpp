@@ -12,6 +12,7 @@
 #include "common/mesh/bark.h"
 #include "common/mesh/fork_bark.h"
 #include "common/mesh/gltf.h"
+#include "common/mesh/joints.h"
 #include "common/mesh/nearest_triangle.h"
 #include "common/mesh/obj.h"
 #include "common/mesh/ply.h"
@@ -192,6 +193,26 @@ TEST_CASE(
         }
       }
     }
+  }
+}
+
+TEST_CASE("joints: a lateral meets what has run along its bearer from farther down") {
+  for (const double away : {0.1, 0.4}) {
+    Skeleton tree;
+    for (std::uint32_t i = 0; i <= 6; ++i)
+      add_node(tree, {0, 0.5 * i, 0}, i == 0 ? kNoParent : i - 1, kTrunk);
+    for (std::uint32_t i = 1; i <= 4; ++i) add_node(tree, {away, 1.0 + 0.4 * i, 0}, i == 1 ? 2 : 5 + i, 0.2);
+    for (std::uint32_t i = 1; i <= 2; ++i) add_node(tree, {0, 2.0, 0.4 * i}, i == 1 ? 4 : 9 + i, 0.2);
+    assign_axes(tree);
+    const std::vector<Joint> joints = find_joints(tree);
+    const auto has = [&](std::uint32_t lateral, std::uint32_t older) {
+      return std::ranges::any_of(
+          joints, [&](const Joint& joint) { return joint.lateral == lateral && joint.older == older; });
+    };
+    CHECK(has(7, 2));
+    CHECK(has(11, 4));
+    CHECK(has(11, 8) == (away < 0.3));  // where the first one comes by
+    CHECK(joints.size() == (away < 0.3 ? 3 : 2));
   }
 }
 
