@@ -19,10 +19,11 @@ struct AxisPoint {
 };
 
 /// A run of Axes::points: the node that the first internode grows from, then the axis's own. A lateral is as
-/// thick at its base as at its first node.
+/// thick at its base as at its first node. One that leaves the last node of its bearer, about as thick, goes
+/// on as a part of the bearer's run and has no points here.
 struct Axis {
   std::uint32_t first;   // point
-  std::uint32_t count;   // of points, at least 2
+  std::uint32_t count;   // of points, at least 2; or 0
   std::uint32_t base;    // the bearer's point that the axis grows from; of a trunk its own first one
   std::uint32_t bearer;  // the axis that this one grows from; of a trunk kNoParent
   float bearer_radius;   // at the base; of a trunk its own

@@ -5,6 +5,7 @@
 #include "common/base/errors.h"
 #include "common/base/files.h"
 #include "common/base/parallel.h"
+#include "common/mesh/axes.h"
 #include "common/mesh/bark_texture.h"
 #include "common/mesh/palette.h"
 
@@ -162,17 +163,18 @@ std::vector<float> bark_repeats(const Skeleton& skeleton, double tile_width) {
   const double thickest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
   const double trunk_tile = std::min(tile_width, std::numbers::pi * thickest / kLeastAroundTrunk);
   std::vector<float> repeats(skeleton.node_count(), 1.0f);
-  for (std::size_t node = skeleton.root_count(); node < skeleton.node_count(); ++node) {
-    const std::uint32_t parent = skeleton.parent[node];
-    if (!skeleton.is_root(parent) && skeleton.axis[parent] == skeleton.axis[node]) {
-      repeats[node] = repeats[parent];
-      continue;
-    }
+  const Axes axes = find_axes(skeleton);
+  for (const Axis& axis : axes.list) {
+    if (axis.count == 0) continue;
+    const std::uint32_t parent = axes.points[axis.first].node;
+    const std::uint32_t node = axes.points[axis.first + 1].node;
     const double bearer_tile = std::numbers::pi * skeleton.diameter[parent] / repeats[parent];
     const double tile = skeleton.is_root(parent) ? trunk_tile : bearer_tile;
     const double girth = std::numbers::pi * skeleton.diameter[node];
-    repeats[node] = static_cast<float>(tile > 0.0 ? std::max(1.0, std::round(girth / tile)) : 1.0);
-    if (skeleton.is_root(parent)) repeats[parent] = std::max(repeats[parent], repeats[node]);
+    const auto times = static_cast<float>(tile > 0.0 ? std::max(1.0, std::round(girth / tile)) : 1.0);
+    if (skeleton.is_root(parent)) repeats[parent] = std::max(repeats[parent], times);
+    for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point)
+      repeats[axes.points[point].node] = times;
   }
   return repeats;
 }

@@ -109,9 +109,11 @@ void mark_points(Axes& axes, std::size_t begin, std::size_t end) {
   if (begin == end) return;
   const std::uint32_t first = axes.list[begin].first;
   const std::uint32_t count = axes.list[end - 1].end() - first;
+  if (count == 0) return;
   mark_row(std::span(axes.points).subspan(first, count), axes, &axes.marks[first]);
   for (std::size_t i = begin; i < end; ++i) {
     const Axis& axis = axes.list[i];
+    if (axis.count == 0) continue;
     std::uint8_t* marks = &axes.marks[axis.first];
     marks[0] &= kIsLow;
     marks[axis.count - 1] &= kIsLow | kIsCrowded;

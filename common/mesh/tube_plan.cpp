@@ -318,7 +318,9 @@ TubePlan plan_tubes(const Skeleton& skeleton, const Axes& axes, const MesherOpti
   parallel_for(plan.tubes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     Planner planner(plan, options, flared);
     for (std::size_t i = begin; i < end; ++i) {
-      if (keeps_all || is_kept[axes.points[axes.list[i].first + 1].node]) {
+      if (axes.list[i].count == 0) {
+        plan.tubes[i] = {};
+      } else if (keeps_all || is_kept[axes.points[axes.list[i].first + 1].node]) {
         planner.plan(i);
       } else {
         planner.leave_out(i);

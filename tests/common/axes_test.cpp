@@ -1,10 +1,30 @@
 #include "common/mesh/axes.h"
 
+#include <algorithm>
+
+#include "common/mesh/bark.h"
+#include "common/mesh/mesher.h"
 #include "tests/catch.h"
 #include "tests/common/trees.h"
 
 using namespace ramify;
 using namespace ramify::test;
+
+namespace {
+
+/// The tree with every so many axes ended where they go on: what follows is an axis of its own.
+Skeleton with_ended_axes(Skeleton tree, std::uint32_t every) {
+  const std::vector<std::uint32_t> whole(tree.axis.begin(), tree.axis.end());
+  std::uint32_t added = *std::max_element(whole.begin(), whole.end());
+  for (std::uint32_t node = 0; node < tree.node_count(); ++node) {
+    if (tree.is_root(node) || tree.is_root(tree.parent[node])) continue;
+    const std::uint32_t parent = tree.parent[node];
+    if (whole[node] == whole[parent]) tree.axis[node] = node % every == 0 ? ++added : tree.axis[parent];
+  }
+  return tree;
+}
+
+}  // namespace
 
 TEST_CASE("axes: a pole is one row of points from its root to its tip") {
   const Skeleton s = pole(4);
@@ -23,8 +43,9 @@ TEST_CASE("axes: a pole is one row of points from its root to its tip") {
 
 TEST_CASE(
     "axes: each internode stands in one row, after its parent, and laterals begin at their bearers' points") {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const Skeleton s = random_tree(seed, 300);
+  std::size_t continuations = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Skeleton s = seed < 10 ? random_tree(seed, 300) : with_ended_axes(random_tree(seed, 300), 3);
     const Axes axes = find_axes(s);
     std::vector<int> found(s.node_count(), 0);
     std::uint32_t next = 0;
@@ -32,6 +53,11 @@ TEST_CASE(
       const Axis& axis = axes.list[i];
       CHECK(axis.first == next);
       next = axis.end();
+      if (axis.count == 0) {
+        CHECK(axes.list[axis.bearer].count > 2);
+        ++continuations;
+        continue;
+      }
       REQUIRE(axis.count >= 2);
       for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point) {
         const std::uint32_t node = axes.points[point].node;
@@ -54,10 +80,54 @@ TEST_CASE(
     CHECK(next == axes.points.size());
     std::vector<std::uint32_t> at_roots;
     for (std::uint32_t i = 0; i < axes.list.size(); ++i) {
-      if (s.is_root(axes.points[axes.list[i].first].node)) at_roots.push_back(i);
+      const Axis& axis = axes.list[i];
+      if (axis.count > 0 && s.is_root(axes.points[axis.first].node)) at_roots.push_back(i);
     }
     CHECK(axes.at_roots == at_roots);
     for (std::size_t node = 0; node < s.node_count(); ++node) CHECK(found[node] == (s.is_root(node) ? 0 : 1));
+  }
+  CHECK(continuations > 100);
+}
+
+TEST_CASE("axes: what leaves the end of an axis, about as thick, goes on as a part of it") {
+  Skeleton s = pole(6);
+  s.axis = {0, 0, 0, 1, 1, 2, 2};  // 2 goes on from 1, which goes on from 0
+  add_node(s, {1, 2, 0}, 2, 0.5 * s.diameter[2]);
+  s.axis[7] = 3;  // too thin
+  add_node(s, {1, 4, 0}, 4, s.diameter[5]);
+  s.axis[8] = 4;
+  add_node(s, {-1, 4, 0}, 4, 0.9 * s.diameter[5]);
+  s.axis[9] = 5;  // axis 2 has begun there before
+  const Axes axes = find_axes(s);
+  REQUIRE(axes.list.size() == 6);
+  const auto counts = {7u, 0u, 0u, 2u, 2u, 2u};
+  CHECK(std::ranges::equal(axes.list, counts, {}, &Axis::count));
+  for (std::uint32_t node = 0; node <= 6; ++node) CHECK(axes.points[node].node == node);
+  for (const std::uint32_t lateral : {3u, 4u, 5u}) CHECK(axes.list[lateral].bearer == 0);
+  CHECK(axes.list[3].base == 2);
+  CHECK(axes.list[4].base == 4);
+  CHECK(axes.list[5].base == 4);
+}
+
+TEST_CASE("axes: a mesh of ended axes that go on is that of whole ones") {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Skeleton whole = random_tree(seed, 120);
+    for (std::uint32_t node = 1; node < whole.node_count(); ++node) {
+      const std::uint32_t parent = whole.parent[node];
+      whole.diameter[node] = whole.diameter[parent] * (whole.axis[node] == whole.axis[parent] ? 0.95 : 0.6);
+    }
+    const Skeleton ended = with_ended_axes(whole, 2);
+    REQUIRE(ended.axis != whole.axis);
+    MesherOptions options;
+    for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
+      options.centre_line = line;
+      const Mesh a = build_mesh(whole, options);
+      const Mesh b = build_mesh(ended, options);
+      CHECK(a.positions == b.positions);
+      CHECK(a.uvs == b.uvs);
+      CHECK(a.triangles == b.triangles);
+    }
+    CHECK(bark_repeats(whole, 0.5) == bark_repeats(ended, 0.5));
   }
 }
 
