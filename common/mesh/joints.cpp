@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "common/mesh/axes.h"
 #include "common/mesh/tube_plan.h"
 
 namespace ramify {
@@ -26,17 +27,18 @@ class JointFinder {
 
   std::vector<Joint> find() {
     const double thickest = *std::max_element(skeleton_.diameter.begin(), skeleton_.diameter.end());
+    const Axes axes = find_axes(skeleton_);
     std::vector<std::uint32_t> laterals;
-    for (std::uint32_t node = 0; node < first_.size(); ++node) {
-      const std::uint32_t parent = skeleton_.parent[node];
-      first_[node] = node;
-      if (skeleton_.is_root(node) || skeleton_.is_root(parent)) continue;
-      if (skeleton_.axis[parent] == skeleton_.axis[node]) {
-        first_[node] = first_[parent];
-        next_[parent] = node;
-      } else if (skeleton_.diameter[node] >= kLeastCollar * thickest) {
-        laterals.push_back(node);
+    for (const Axis& axis : axes.list) {
+      if (axis.count == 0) continue;
+      const std::uint32_t first = axes.points[axis.first + 1].node;
+      for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point) {
+        const std::uint32_t node = axes.points[point].node;
+        first_[node] = first;
+        if (point + 1 < axis.end()) next_[node] = axes.points[point + 1].node;
       }
+      const bool is_lateral = !skeleton_.is_root(skeleton_.parent[first]);
+      if (is_lateral && skeleton_.diameter[first] >= kLeastCollar * thickest) laterals.push_back(first);
     }
     for (const std::uint32_t lateral : laterals) add_lateral(lateral);
     for (Joint& joint : joints_) {
