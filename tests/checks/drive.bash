@@ -25,19 +25,8 @@ start() {
   LD_PRELOAD=${preloaded-} "$program" view --driven "$@" > "$log" 2> "$work/errors" &
   process=$!
   wait_for READY
-  window=$(find_window) || fail "no window is named ramify"
+  window=$(xdotool search --sync --name '^ramify$' | tail -1)
   xdotool windowfocus "$window"
-}
-
-# Tries again: a search ends with an error if a window that it meets is closed meanwhile, such as one of the program before.
-find_window() {
-  local i found
-  for ((i = 0; i < 40 * patience; ++i)); do
-    found=$(xdotool search --name '^ramify$' 2> /dev/null | tail -1) || found=
-    [[ -n $found ]] && echo "$found" && return
-    sleep 0.25
-  done
-  return 1
 }
 
 # wait_for PATTERN [LINES]: until such a line comes after the first LINES of the log.
@@ -173,12 +162,13 @@ photo() {
 
 quit() {
   local i code=0
-  # A busy window may miss the key, and be gone before it is let go.
+  # A busy window may miss the key, or be gone before it is let go: then the display repeats it into the next window.
   for ((i = 0; i < 100 * patience; ++i)); do
     ((i % 20)) || xdotool key --window "$window" ctrl+q 2> /dev/null || true
     kill -0 "$process" 2> /dev/null || break
     sleep 0.25
   done
+  xdotool keyup ctrl+q
   wait "$process" || code=$?
   [[ $code == 0 && ! -s $work/errors ]] || fail "it ended with $code: $(cat "$work/errors")"
 }
