@@ -197,6 +197,7 @@ Axes find_axes(const Skeleton& skeleton) {
     count += places.count[i];
   }
   axes.points.resize(count);
+  // While points are laid, continuations begin within the rows of their wholes; else between rows.
   std::vector<std::uint32_t> rows;
   for (const auto& [axis, whole, offset] : continuations)
     rows.push_back(std::exchange(first[axis], first[whole] + offset));

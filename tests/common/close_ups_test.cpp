@@ -149,7 +149,8 @@ TEST_CASE(
 TEST_CASE("close-ups: a collar at the end of its parent begins within the parent's tip") {
   const Mesh parent = build_mesh(elbow(0.0), {.root_flare = 0.0});
   for (const double angle_deg : {60.0, 100.0, 125.0, 145.0, 165.0}) {
-    for (const double diameter : {0.06, 0.1, 0.135}) {  // thicker ones go on as a part of the parent
+    for (const double diameter : {0.06, 0.12, 0.135, 0.18}) {
+      if (diameter > 0.14 && angle_deg < 120.0) continue;  // goes on as a part of the parent
       Skeleton s = elbow(0.0);
       const Vec3 along(std::sin(radians(angle_deg)), std::cos(radians(angle_deg)), 0);
       add_node(s, Vec3(0, 2, 0) + along, 2, diameter);

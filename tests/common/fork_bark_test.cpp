@@ -235,7 +235,7 @@ TEST_CASE("fork bark: a bearer that is bent at the fork goes on in its own width
     const MaterialRange* overlay = overlay_of(mesh);
     REQUIRE(overlay != nullptr);
     const double a_metre = bark_repeats(tree, looks.bark.tile_width)[3] / (std::numbers::pi * kTrunk);
-    double longest = 0.0;
+    double whole = 0.0;  // of edges, metres
     double squeezed = 0.0;
     for (std::size_t t = overlay->first_triangle; t < mesh.triangles.size(); ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
@@ -244,13 +244,13 @@ TEST_CASE("fork bark: a bearer that is bent at the fork goes on in its own width
         const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
         if (std::min(mesh.colors[a][3], mesh.colors[b][3]) < 128 || length < 0.005) continue;
         const double texture = glm::distance(mesh.uvs[a], mesh.uvs[b]) / a_metre;
-        longest += length;
+        whole += length;
         if (texture > 1.6 * length) squeezed += length;
       }
     }
     INFO(static_cast<int>(method));
-    CHECK(longest > 1.0);
-    CHECK(squeezed < 0.02 * longest);
+    CHECK(whole > 1.0);
+    CHECK(squeezed < 0.02 * whole);
   }
 }
 
