@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/parallel.h"
+#include "common/mesh/axes.h"
 #include "common/mesh/bark_stretches.h"
 #include "common/mesh/detail.h"
 #include "common/mesh/wood.h"
@@ -90,6 +91,7 @@ bool is_squeezed(const NodePart& part, double length, double end_radius) {
 
 struct ConesPlan {
   std::vector<NodePart> parts;
+  std::vector<bool> goes_on;               // whether each node's axis does from its parent
   std::vector<bool> has_roots;             // of each tree; without, it stands flat on the ground
   bool has_winding = false;                // some axis
   std::optional<BarkStretches> stretches;  // if so, in the end
@@ -98,15 +100,26 @@ struct ConesPlan {
   std::size_t triangle_count = 0;
 };
 
+/// Whether each node's axis goes on from its parent: also one that leaves another's end, see Axis.
+std::vector<bool> find_going_on(const Skeleton& skeleton) {
+  std::vector<bool> goes_on(skeleton.node_count(), false);
+  const Axes axes = find_axes(skeleton);
+  for (const Axis& axis : axes.list) {
+    for (std::uint32_t point = axis.first + 1; point < axis.end(); ++point) {
+      const std::uint32_t node = axes.points[point].node;
+      goes_on[node] = point > axis.first + 1 || skeleton.axis[node] == skeleton.axis[skeleton.parent[node]];
+    }
+  }
+  return goes_on;
+}
+
 /// Bark lies on these by the place alone.
 void find_winding_axes(const Skeleton& skeleton, double thinnest, ConesPlan& plan) {
   std::vector<std::uint32_t> first(plan.parts.size());  // node of each one's axis
   std::vector<bool> winds(plan.parts.size(), false);    // of those nodes
   for (std::uint32_t node = 0; node < first.size(); ++node) {
     const NodePart& part = plan.parts[node];
-    const bool goes_on =
-        !skeleton.is_root(node) && skeleton.axis[node] == skeleton.axis[skeleton.parent[node]];
-    first[node] = goes_on ? first[skeleton.parent[node]] : node;
+    first[node] = plan.goes_on[node] ? first[skeleton.parent[node]] : node;
     if (part.has_cone && is_squeezed(part, skeleton.length(node), radius(skeleton, node, thinnest)))
       winds[first[node]] = plan.has_winding = true;
   }
@@ -126,13 +139,13 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
   ConesPlan plan;
   plan.tolerance = tolerance;
   plan.parts.resize(skeleton.node_count());
+  plan.goes_on = find_going_on(skeleton);
   plan.has_roots.assign(skeleton.root_count(), false);
   std::vector<NodePart>& parts = plan.parts;
   for (std::size_t node = 0; node < parts.size(); ++node) {
     NodePart& part = parts[node];
     const double end_radius = radius(skeleton, node, thinnest);
-    const bool goes_on =
-        !skeleton.is_root(node) && skeleton.axis[node] == skeleton.axis[skeleton.parent[node]];
+    const bool goes_on = plan.goes_on[node];
     part.axis_sides = goes_on ? parts[skeleton.parent[node]].axis_sides
                               : side_count(skeleton.diameter[node], greatest, options);
     part.sides = sides_within(part.axis_sides, end_radius, tolerance);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "common/base/parallel.h"
@@ -15,8 +16,12 @@ namespace {
 // In radii of the lateral: so far from its bearer's surface the bearer's bark has faded out.
 constexpr float kFade = 0.6f;
 
-// What fades out does so over triangles shorter than this, in fades: else there is no collar.
-constexpr float kLongest = 4.0f;
+// Between vertices that are farther apart than so many fades the opacity changes by no more than this.
+constexpr float kLongest = 2.0f;
+constexpr float kOpacityStep = 0.5f;
+
+// Times that edges are halved at the most: without area a triangle could be parted for ever.
+constexpr int kRefinements = 10;
 
 // Where a lateral goes straight out, the bearer's bark is stretched along it: what is missing of it then
 // counts so often towards the fade.
@@ -27,6 +32,8 @@ constexpr float kAbove = 0.004f;
 
 // Cosine between a surface's normal and the way to a point below which that lies inside.
 constexpr float kInside = -0.7f;
+
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 /// The bark's triangles of some internodes.
 class TrianglesOfNodes {
@@ -64,60 +71,90 @@ class TrianglesOfNodes {
   std::vector<std::uint32_t> list_;
 };
 
-/// How the bearer's bark lies on one vertex of a lateral.
+/// How the bearer's bark lies at a point of the lateral.
 struct Cover {
   Vec2f uv{0.0f};
   float distance = 0.0f;  // from the bearer's surface, metres; negative inside
   float opacity = 0.0f;
 };
 
-/// A part of the overlay: vertices like those of the mesh, of which they are copies.
+/// Of the lateral's surface.
+struct SurfaceVertex {
+  Vec3f position;
+  Vec3f normal;
+  glm::vec4 color;  // 0 to 255, as in the mesh
+};
+
+SurfaceVertex halfway(const SurfaceVertex& a, const SurfaceVertex& b) {
+  return {0.5f * (a.position + b.position), normalized_or(a.normal + b.normal, a.normal, 1e-6f),
+          0.5f * (a.color + b.color)};
+}
+
+/// A part of the overlay.
 struct Patch {
-  std::vector<std::uint32_t> vertices;
+  std::vector<SurfaceVertex> vertices;  // their alpha is the opacity
   std::vector<Vec2f> uvs;
-  std::vector<float> opacities;
   std::vector<Triangle> triangles;  // indices into these
 };
 
 class PatchMaker {
  public:
   PatchMaker(const Mesh& mesh, const Skeleton& skeleton, const BarkStretches& stretches, const Joint& joint,
-             float repeats)
+             float repeats, const std::vector<std::uint32_t>& bearer)
       : mesh_(mesh),
         skeleton_(skeleton),
         stretches_(stretches),
         joint_(joint),
         repeats_(repeats),
-        fade_(kFade * joint.radius) {}
+        fade_(kFade * joint.radius),
+        bearer_(mesh, bearer) {}
 
-  Patch make(const std::vector<std::uint32_t>& bearer, const std::vector<std::uint32_t>& lateral) {
-    if (bearer.empty()) return {};
-    cover(TriangleTree(mesh_, bearer), lateral);
-    bare_long_triangles(lateral);
-    Patch patch;
-    for (const std::uint32_t t : lateral) {
-      const Triangle& triangle = mesh_.triangles[t];
-      const auto is_bare = [&](std::uint32_t v) { return covers_.at(v).opacity <= 0.0f; };
-      const auto is_inside = [&](std::uint32_t v) { return covers_.at(v).distance < 0.0f; };
-      if (std::all_of(triangle.begin(), triangle.end(), is_bare)) continue;
-      if (std::all_of(triangle.begin(), triangle.end(), is_inside)) continue;
-      add(triangle, patch);
+  Patch make(const std::vector<std::uint32_t>& lateral) {
+    cover(lateral);
+    for (int i = 0; i < kRefinements && refine(); ++i) {
     }
-    return patch;
+    for (const Triangle& triangle : triangles_) {
+      if (is_seen(triangle)) add(triangle);
+    }
+    return std::move(patch_);
   }
 
  private:
-  void cover(const TriangleTree& bearer, const std::vector<std::uint32_t>& lateral) {
+  /// The triangles of the lateral on which the bearer's bark may be seen.
+  void cover(const std::vector<std::uint32_t>& lateral) {
+    std::map<std::uint32_t, std::uint32_t> places;  // of the mesh's vertices among these
     for (const std::uint32_t t : lateral) {
-      for (const std::uint32_t v : mesh_.triangles[t]) {
-        const auto [found, is_new] = covers_.try_emplace(v);
-        if (is_new) found->second = cover_at(bearer, mesh_.positions[v]);
+      Triangle triangle{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t v = mesh_.triangles[t][i];
+        const auto [found, is_new] = places.try_emplace(v, static_cast<std::uint32_t>(vertices_.size()));
+        triangle[i] = found->second;
+        if (is_new) add_vertex({mesh_.positions[v], mesh_.normals[v], color_of(v)});
       }
+      if (is_seen(triangle)) triangles_.push_back(triangle);
     }
   }
 
-  Cover cover_at(const TriangleTree& bearer, const Vec3f& point) const {
-    const NearestTriangle nearest = bearer.nearest(point);
+  glm::vec4 color_of(std::uint32_t vertex) const {
+    if (mesh_.colors.empty()) return glm::vec4(255.0f);
+    const auto [r, g, b, alpha] = mesh_.colors[vertex];
+    return {r, g, b, alpha};
+  }
+
+  std::uint32_t add_vertex(const SurfaceVertex& vertex) {
+    vertices_.push_back(vertex);
+    covers_.push_back(cover_at(vertex.position));
+    return static_cast<std::uint32_t>(vertices_.size() - 1);
+  }
+
+  bool is_seen(const Triangle& triangle) const {
+    const auto is_bare = [&](std::uint32_t v) { return covers_[v].opacity <= 0.0f; };
+    const auto is_inside = [&](std::uint32_t v) { return covers_[v].distance < 0.0f; };
+    return !std::ranges::all_of(triangle, is_bare) && !std::ranges::all_of(triangle, is_inside);
+  }
+
+  Cover cover_at(const Vec3f& point) const {
+    const NearestTriangle nearest = bearer_.nearest(point);
     const auto [a, b, c] = mesh_.triangles[nearest.triangle];
     const Vec3f& shares = nearest.shares;
     Cover cover;
@@ -144,34 +181,87 @@ class PatchMaker {
     return girths;
   }
 
-  /// A side that goes out straight, without rings that follow one another, shows its own bark.
-  void bare_long_triangles(const std::vector<std::uint32_t>& lateral) {
-    std::vector<std::uint32_t> bare;
-    for (const std::uint32_t t : lateral) {
-      const auto& [a, b, c] = mesh_.triangles[t];
-      const auto [low, high] =
-          std::minmax({covers_.at(a).distance, covers_.at(b).distance, covers_.at(c).distance});
-      if (low < fade_ && high - low > kLongest * fade_) bare.insert(bare.end(), {a, b, c});
-    }
-    for (const std::uint32_t v : bare) covers_.at(v).opacity = 0.0f;
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;  // vertices, the lesser first
+
+  float length(const Edge& edge) const {
+    return glm::distance(vertices_[edge.first].position, vertices_[edge.second].position);
   }
 
-  void add(const Triangle& triangle, Patch& patch) {
+  /// Whether opacity, which changes evenly along an edge, does so by much over a long way, or the bark's
+  /// place does where the edge comes out of the bearer.
+  bool is_coarse(const Edge& edge) const {
+    const Cover& a = covers_[edge.first];
+    const Cover& b = covers_[edge.second];
+    if (length(edge) <= kLongest * fade_) return false;
+    return (a.distance < 0.0f) != (b.distance < 0.0f) || std::abs(a.opacity - b.opacity) > kOpacityStep;
+  }
+
+  static std::array<Edge, 3> edges_of(const Triangle& triangle) {
+    const auto& [a, b, c] = triangle;
+    return {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)};
+  }
+
+  /// Halves the longest edges of triangles with a coarse one, and triangles with them. Returns whether there
+  /// were any.
+  bool refine() {
+    std::map<Edge, std::uint32_t> middles;
+    for (const Triangle& triangle : triangles_) {
+      const std::array<Edge, 3> edges = edges_of(triangle);
+      if (std::ranges::none_of(edges, [&](const Edge& edge) { return is_coarse(edge); })) continue;
+      const Edge longest = std::ranges::max(edges, {}, [&](const Edge& edge) { return length(edge); });
+      const auto [middle, is_new] = middles.try_emplace(longest, kNoVertex);
+      if (is_new) middle->second = add_vertex(halfway(vertices_[longest.first], vertices_[longest.second]));
+    }
+    if (middles.empty()) return false;
+    std::vector<Triangle> parts;
+    for (const Triangle& triangle : triangles_) {
+      Triangle middles_of_edges;
+      std::ranges::transform(edges_of(triangle), middles_of_edges.begin(), [&](const Edge& edge) {
+        const auto middle = middles.find(edge);
+        return middle == middles.end() ? kNoVertex : middle->second;
+      });
+      append_parts(triangle, middles_of_edges, parts);
+    }
+    triangles_ = std::move(parts);
+    return true;
+  }
+
+  /// Of a triangle whose edges, from a corner to the next, have middles or not.
+  static void append_parts(Triangle corners, Triangle middles, std::vector<Triangle>& parts) {
+    const auto count = 3 - std::ranges::count(middles, kNoVertex);
+    if (count == 0) return parts.push_back(corners);
+    // With one middle it is on the first edge, with two the last edge has none.
+    while ((count == 1 && middles[0] == kNoVertex) || (count == 2 && middles[2] != kNoVertex)) {
+      std::ranges::rotate(corners, corners.begin() + 1);
+      std::ranges::rotate(middles, middles.begin() + 1);
+    }
+    const auto& [a, b, c] = corners;
+    const auto& [ab, bc, ca] = middles;
+    if (count == 1) {
+      parts.insert(parts.end(), {{a, ab, c}, {ab, b, c}});
+    } else if (count == 2) {
+      parts.insert(parts.end(), {{ab, b, bc}, {a, ab, bc}, {a, bc, c}});
+    } else {
+      parts.insert(parts.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+  }
+
+  void add(const Triangle& triangle) {
     Triangle copy{};
-    const float first_u = covers_.at(triangle[0]).uv.x;
+    const float first_u = covers_[triangle[0]].uv.x;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Cover& cover = covers_.at(triangle[i]);
+      const Cover& cover = covers_[triangle[i]];
       // Behind, where the texture's ends meet, it is a turn further.
       const int turns = static_cast<int>(std::lround((first_u - cover.uv.x) / repeats_));
       const auto [found, is_new] =
-          copies_.try_emplace({triangle[i], turns}, static_cast<std::uint32_t>(patch.vertices.size()));
+          copies_.try_emplace({triangle[i], turns}, static_cast<std::uint32_t>(patch_.vertices.size()));
       copy[i] = found->second;
       if (!is_new) continue;
-      patch.vertices.push_back(triangle[i]);
-      patch.uvs.emplace_back(cover.uv.x + static_cast<float>(turns) * repeats_, cover.uv.y);
-      patch.opacities.push_back(cover.opacity);
+      patch_.vertices.push_back(vertices_[triangle[i]]);
+      patch_.vertices.back().color.a = 255.0f * cover.opacity;
+      patch_.uvs.emplace_back(cover.uv.x + static_cast<float>(turns) * repeats_, cover.uv.y);
     }
-    patch.triangles.push_back(copy);
+    patch_.triangles.push_back(copy);
   }
 
   const Mesh& mesh_;
@@ -180,8 +270,12 @@ class PatchMaker {
   const Joint& joint_;
   const float repeats_;
   const float fade_;
-  std::map<std::uint32_t, Cover> covers_;                          // of the lateral's vertices
+  const TriangleTree bearer_;
+  std::vector<SurfaceVertex> vertices_;
+  std::vector<Cover> covers_;  // of these
+  std::vector<Triangle> triangles_;
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> copies_;  // of vertices, by the turns added to u
+  Patch patch_;
 };
 
 /// Makes room for all of them first: the arrays of a large tree are moved once.
@@ -205,12 +299,12 @@ void append_patches(Mesh& mesh, const std::vector<Joint>& joints, const std::vec
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const auto base = static_cast<std::uint32_t>(vertex);
     for (std::size_t v = 0; v < patches[i].vertices.size(); ++v, ++vertex) {
-      const std::uint32_t source = patches[i].vertices[v];
-      mesh.normals[vertex] = mesh.normals[source];
-      mesh.positions[vertex] = mesh.positions[source] + mesh.normals[source] * (kAbove * joints[i].radius);
+      const auto& [position, normal, color] = patches[i].vertices[v];
+      mesh.normals[vertex] = normal;
+      mesh.positions[vertex] = position + normal * (kAbove * joints[i].radius);
       mesh.uvs[vertex] = patches[i].uvs[v];
-      mesh.colors[vertex] = mesh.colors[source];
-      mesh.colors[vertex][3] = static_cast<std::uint8_t>(255.0f * patches[i].opacities[v] + 0.5f);
+      for (int part = 0; part < 4; ++part)
+        mesh.colors[vertex][part] = static_cast<std::uint8_t>(color[part] + 0.5f);
       mesh.internodes[vertex] = joints[i].older;
     }
     for (const auto& [a, b, c] : patches[i].triangles)
@@ -232,8 +326,10 @@ void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const floa
   parallel_for(joints.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Joint& joint = joints[i];
-      patches[i] = PatchMaker(mesh, skeleton, stretches, joint, repeats[joint.older])
-                       .make(triangles.of(joint.older_nodes), triangles.of(joint.lateral_nodes));
+      const std::vector<std::uint32_t> bearer = triangles.of(joint.older_nodes);
+      if (bearer.empty()) continue;
+      patches[i] = PatchMaker(mesh, skeleton, stretches, joint, repeats[joint.older], bearer)
+                       .make(triangles.of(joint.lateral_nodes));
     }
   });
 

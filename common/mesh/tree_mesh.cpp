@@ -21,9 +21,9 @@ void add_leaves(TreeMesh& tree, const Skeleton& skeleton, const Looks& looks, st
   tree.leaf_area = total_area(model, leaves);
 }
 
-/// Cones have no collars, and coarse meshes no triangles to spare.
+/// Coarse meshes have no triangles to spare.
 bool has_fork_bark(const MesherOptions& options) {
-  return options.method != MeshMethod::cones && options.lod == 0 && options.max_triangles == 0;
+  return options.lod == 0 && options.max_triangles == 0;
 }
 
 }  // namespace

@@ -118,9 +118,9 @@ TEST_CASE("axes: a mesh of ended axes that go on is that of whole ones") {
     }
     const Skeleton ended = with_ended_axes(whole, 2);
     REQUIRE(ended.axis != whole.axis);
-    MesherOptions options;
-    for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
-      options.centre_line = line;
+    for (const MesherOptions& options :
+         {MesherOptions{}, MesherOptions{.centre_line = CentreLine::catmull_rom},
+          MesherOptions{.method = MeshMethod::cones}}) {
       const Mesh a = build_mesh(whole, options);
       const Mesh b = build_mesh(ended, options);
       CHECK(a.positions == b.positions);

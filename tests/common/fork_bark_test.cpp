@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 #include "common/base/parallel.h"
@@ -27,7 +28,8 @@ using namespace ramify::test;
 
 namespace {
 
-constexpr double kTrunk = 0.3;  // metres thick
+constexpr double kTrunk = 0.3;   // metres thick
+constexpr double kSeen = -0.03;  // metres outside of it: what lies deeper is hidden, and its bark anything
 
 /// A trunk of even width and a lateral that leaves it half way up.
 Skeleton fork(double angle_deg, double diameter, double azimuth_deg = 0.0) {
@@ -142,7 +144,7 @@ TEST_CASE("nearest triangle: the one that looking at all of them finds") {
 
 TEST_CASE(
     "fork bark: it shows the trunk's bark where that would go on, and fades out before the lateral's own") {
-  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::watertight}) {
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones, MeshMethod::watertight}) {
     for (const double angle : {35.0, 60.0, 90.0}) {
       for (const double azimuth : {0.0, 100.0, 170.0, 290.0}) {  // one of them where the texture's ends meet
         Looks looks = looks_with(method);
@@ -176,7 +178,7 @@ TEST_CASE(
           strong += opacity > 0.9;
           faint += opacity < 0.1;
           if (from_trunk(p) > 0.08) CHECK(opacity < 0.1);
-          if (opacity < 0.9) continue;
+          if (opacity < 0.9 || from_trunk(p) < kSeen) continue;
           const double turns = mesh.uvs[i].x / repeats - on_trunk(p).x;
           u.push_back(turns - std::round(turns - (u.empty() ? turns : u.front())));
           v.push_back(mesh.uvs[i].y / repeats - on_trunk(p).y);
@@ -188,6 +190,8 @@ TEST_CASE(
         check_open_edges(mesh, *overlay);
         for (std::size_t t = overlay->first_triangle; t < mesh.triangles.size(); ++t) {
           const auto& [a, b, c] = mesh.triangles[t];
+          const auto is_seen = [&](std::uint32_t at) { return from_trunk(mesh.positions[at]) > kSeen; };
+          if (!is_seen(a) || !is_seen(b) || !is_seen(c)) continue;
           const auto [low, high] = std::minmax({mesh.uvs[a].x, mesh.uvs[b].x, mesh.uvs[c].x});
           CHECK(high - low < 0.5f * repeats);  // else it runs across the texture's ends
         }
@@ -257,8 +261,9 @@ TEST_CASE("fork bark: a bearer that is bent at the fork goes on in its own width
 TEST_CASE("fork bark: on any tree no triangle goes round more than once") {
   std::size_t triangles = 0;
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
-    for (const CentreLine line : {CentreLine::polyline, CentreLine::catmull_rom}) {
-      const Mesh mesh = mesh_of(random_tree(seed, 80), looks_with(MeshMethod::smooth, line));
+    for (const Looks& looks : {looks_with(MeshMethod::smooth), looks_with(MeshMethod::cones),
+                               looks_with(MeshMethod::smooth, CentreLine::catmull_rom)}) {
+      const Mesh mesh = mesh_of(random_tree(seed, 80), looks);
       const MaterialRange* overlay = overlay_of(mesh);
       if (overlay == nullptr) continue;
       triangles += overlay->triangle_count;
@@ -277,10 +282,38 @@ TEST_CASE("fork bark: on any tree no triangle goes round more than once") {
   CHECK(triangles > 500);
 }
 
-TEST_CASE("fork bark: none where no image is, by cones, on coarse levels and within a budget") {
+TEST_CASE("fork bark: it fades out evenly where a side goes straight out, without vertices on the way") {
+  const float fade = 0.6f * 0.075f;
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+    const Mesh mesh = mesh_of(fork(90.0, 0.15), looks_with(method));
+    const MaterialRange* overlay = overlay_of(mesh);
+    REQUIRE(overlay != nullptr);
+    INFO(static_cast<int>(method));
+    std::size_t coarse = 0;
+    for (std::size_t t = overlay->first_triangle; t < mesh.triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = mesh.triangles[t][i];
+        const std::uint32_t b = mesh.triangles[t][(i + 1) % 3];
+        const bool is_steep = std::abs(mesh.colors[a][3] - mesh.colors[b][3]) > 140;
+        coarse += is_steep && glm::distance(mesh.positions[a], mesh.positions[b]) > 2.1f * fade;
+      }
+    }
+    CHECK(coarse == 0);
+    // Its new vertices lie on the surface.
+    const std::size_t solid = solid_part(mesh).triangle_count;
+    std::vector<std::uint32_t> all(solid);
+    std::iota(all.begin(), all.end(), 0u);
+    const TriangleTree surface(mesh, all);
+    for (std::size_t v = solid_part(mesh).vertex_count; v < mesh.vertex_count(); ++v) {
+      CHECK(surface.nearest(mesh.positions[v]).distance2 < 0.001f * 0.001f);
+      CHECK(glm::length(mesh.normals[v]) == Approx(1.0f));
+    }
+  }
+}
+
+TEST_CASE("fork bark: none where no image is, on coarse levels and within a budget") {
   const Skeleton tree = fork(60.0, 0.15);
   CHECK(overlay_of(mesh_of(tree, looks_with(MeshMethod::smooth))) != nullptr);
-  CHECK(overlay_of(mesh_of(tree, looks_with(MeshMethod::cones))) == nullptr);
   CHECK(overlay_of(mesh_of(fork(60.0, 0.002), looks_with(MeshMethod::smooth))) == nullptr);  // a twig
   CHECK(overlay_of(mesh_of(pole(5), looks_with(MeshMethod::smooth))) == nullptr);
   Looks looks = looks_with(MeshMethod::smooth);
