@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "common/base/parallel.h"
 #include "common/mesh/bark_stretches.h"
 #include "common/mesh/joints.h"
 #include "common/mesh/nearest_triangle.h"
+#include "common/mesh/refinement.h"
 
 namespace ramify {
 namespace {
@@ -20,7 +20,7 @@ constexpr float kFade = 0.6f;
 constexpr float kLongest = 2.0f;
 constexpr float kOpacityStep = 0.5f;
 
-// Times that edges are halved at the most: without area a triangle could be parted for ever.
+// Times that the overlay is refined at the most: triangles without area could be for ever.
 constexpr int kRefinements = 10;
 
 // Where a lateral goes straight out, the bearer's bark is stretched along it: what is missing of it then
@@ -32,8 +32,6 @@ constexpr float kAbove = 0.004f;
 
 // Cosine between a surface's normal and the way to a point below which that lies inside.
 constexpr float kInside = -0.7f;
-
-constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 /// The bark's triangles of some internodes.
 class TrianglesOfNodes {
@@ -111,8 +109,7 @@ class PatchMaker {
 
   Patch make(const std::vector<std::uint32_t>& lateral) {
     cover(lateral);
-    for (int i = 0; i < kRefinements && refine(); ++i) {
-    }
+    refine_triangles();
     for (const Triangle& triangle : triangles_) {
       if (is_seen(triangle)) add(triangle);
     }
@@ -181,8 +178,6 @@ class PatchMaker {
     return girths;
   }
 
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;  // vertices, the lesser first
-
   float length(const Edge& edge) const {
     return glm::distance(vertices_[edge.first].position, vertices_[edge.second].position);
   }
@@ -196,53 +191,17 @@ class PatchMaker {
     return (a.distance < 0.0f) != (b.distance < 0.0f) || std::abs(a.opacity - b.opacity) > kOpacityStep;
   }
 
-  static std::array<Edge, 3> edges_of(const Triangle& triangle) {
-    const auto& [a, b, c] = triangle;
-    return {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)};
-  }
-
-  /// Halves the longest edges of triangles with a coarse one, and triangles with them. Returns whether there
-  /// were any.
-  bool refine() {
-    std::map<Edge, std::uint32_t> middles;
-    for (const Triangle& triangle : triangles_) {
-      const std::array<Edge, 3> edges = edges_of(triangle);
-      if (std::ranges::none_of(edges, [&](const Edge& edge) { return is_coarse(edge); })) continue;
-      const Edge longest = std::ranges::max(edges, {}, [&](const Edge& edge) { return length(edge); });
-      const auto [middle, is_new] = middles.try_emplace(longest, kNoVertex);
-      if (is_new) middle->second = add_vertex(halfway(vertices_[longest.first], vertices_[longest.second]));
-    }
-    if (middles.empty()) return false;
-    std::vector<Triangle> parts;
-    for (const Triangle& triangle : triangles_) {
-      Triangle middles_of_edges;
-      std::ranges::transform(edges_of(triangle), middles_of_edges.begin(), [&](const Edge& edge) {
-        const auto middle = middles.find(edge);
-        return middle == middles.end() ? kNoVertex : middle->second;
-      });
-      append_parts(triangle, middles_of_edges, parts);
-    }
-    triangles_ = std::move(parts);
-    return true;
-  }
-
-  /// Of a triangle whose edges, from a corner to the next, have middles or not.
-  static void append_parts(Triangle corners, Triangle middles, std::vector<Triangle>& parts) {
-    const auto count = 3 - std::ranges::count(middles, kNoVertex);
-    if (count == 0) return parts.push_back(corners);
-    // With one middle it is on the first edge, with two the last edge has none.
-    while ((count == 1 && middles[0] == kNoVertex) || (count == 2 && middles[2] != kNoVertex)) {
-      std::ranges::rotate(corners, corners.begin() + 1);
-      std::ranges::rotate(middles, middles.begin() + 1);
-    }
-    const auto& [a, b, c] = corners;
-    const auto& [ab, bc, ca] = middles;
-    if (count == 1) {
-      parts.insert(parts.end(), {{a, ab, c}, {ab, b, c}});
-    } else if (count == 2) {
-      parts.insert(parts.end(), {{ab, b, bc}, {a, ab, bc}, {a, bc, c}});
-    } else {
-      parts.insert(parts.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  /// Adds vertices where the lateral's own are too far apart for the bark to fade out between them.
+  void refine_triangles() {
+    const EdgeRules rules{
+        .is_coarse = [&](const Edge& edge) { return is_coarse(edge); },
+        .length = [&](const Edge& edge) { return length(edge); },
+        .add_middle =
+            [&](const Edge& edge) {
+              return add_vertex(halfway(vertices_[edge.first], vertices_[edge.second]));
+            },
+    };
+    for (int i = 0; i < kRefinements && refine(triangles_, rules); ++i) {
     }
   }
 
