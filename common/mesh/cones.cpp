@@ -18,6 +18,10 @@ namespace {
 // sides.
 const double kStraight = std::cos(radians(8.0));
 
+// Half the angle between the sides of two cones that follow one another: beyond, what is between is a
+// shoulder.
+const double kShoulder = radians(20.0);
+
 // Cosine below which an axis turns back: its bark starts anew there.
 constexpr double kTurnsBack = -0.5;
 
@@ -42,6 +46,14 @@ struct NodePart {
   Vec3 base_bend;  // the same where the cone begins; a lateral's begins straight
   double v = 0.0;
   double base_radius = 0.0;  // of the cone
+  double sine = 0.0;         // of its taper: radius that it loses along its side
+  // Cones that follow one another touch the sphere between them in two circles, and meet at a height between
+  // these: above the node, along the axis, metres.
+  double base_meeting = 0.0;
+  double end_meeting = 0.0;
+  // Along the axis, metres, that a cone is longer to meet there, where else the sphere would be seen.
+  double base_gap = 0.0;
+  double end_gap = 0.0;
   bool has_cone = false;
   bool has_sphere = false;
   bool is_tip = false;             // the axis ends here
@@ -113,6 +125,19 @@ std::vector<bool> find_going_on(const Skeleton& skeleton) {
   return goes_on;
 }
 
+/// Lets two cones that follow one another meet about the node between them, which has this radius.
+void join_cones(NodePart& below, NodePart& above, double radius) {
+  const double low = std::asin(below.sine);
+  const double high = std::asin(above.sine);
+  const double half_apart = 0.5 * (high - low);
+  below.end_meeting = above.base_meeting = radius * std::sin(0.5 * (low + high)) / std::cos(half_apart);
+  // At a bend the sphere is seen in any case; as a shoulder it is rounder than an edge.
+  const bool shows_sphere = half_apart > kShoulder || glm::dot(below.along, above.along) < kStraight;
+  if (half_apart <= 0.0 || shows_sphere) return;
+  below.end_gap = radius * std::tan(half_apart) / std::cos(low);
+  above.base_gap = radius * std::tan(half_apart) / std::cos(high);
+}
+
 /// Bark lies on these by the place alone.
 void find_winding_axes(const Skeleton& skeleton, double thinnest, ConesPlan& plan) {
   std::vector<std::uint32_t> first(plan.parts.size());  // node of each one's axis
@@ -168,13 +193,15 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     part.root = below.root;
     if (skeleton.is_root(parent) && part.along.y < 0.0) plan.has_roots[parent] = true;
     if (goes_on) below.is_tip = false;
-    if (goes_on && glm::dot(below.along, part.along) > kTurnsBack)
-      below.bend = part.base_bend = glm::normalize(below.along + part.along);
+    const bool turns_back = glm::dot(below.along, part.along) <= kTurnsBack;
+    if (goes_on && !turns_back) below.bend = part.base_bend = glm::normalize(below.along + part.along);
     if (goes_on && tolerance <= 0.0 && glm::dot(below.along, part.along) < kStraight)
       below.sphere_sides = 2 * below.sides;
     part.v = length / (std::numbers::pi * (part.base_radius + end_radius));
     if (goes_on) part.v += parts[parent].v;
     part.has_cone = is_kept[node] && length > std::abs(part.base_radius - end_radius) + thinnest;
+    if (part.has_cone) part.sine = (part.base_radius - end_radius) / length;
+    if (goes_on && !turns_back && below.has_cone && part.has_cone) join_cones(below, part, part.base_radius);
   }
   find_winding_axes(skeleton, thinnest, plan);
   for (NodePart& part : parts) {
@@ -250,25 +277,24 @@ class PartBuilder {
     }
   }
 
-  /// Between the circles in which a cone touches both spheres.
+  /// Between the circles in which a cone touches both spheres, or on to where it meets other cones.
   void add_cone() {
     sides_ = part_.sides;
     axis_ = part_.along;
     side_ = part_.side;
-    const std::uint32_t parent = skeleton_.parent[node_];
     const double length = skeleton_.length(node_);
-    const double sine = (part_.base_radius - end_radius_) / length;
-    const auto add_ring = [&](double share) {
-      const Vec3 center = glm::mix(skeleton_.position[parent], skeleton_.position[node_], share);
-      const double radius = glm::mix(part_.base_radius, end_radius_, share);
-      add_circle(center, radius, sine, [&](std::uint32_t i, const Vec3&) {
+    const Vec3& base = skeleton_.position[skeleton_.parent[node_]];
+    // The circle that touches the sphere about this point of the axis.
+    const auto add_ring = [&](double along) {
+      const double radius = part_.base_radius - part_.sine * along;
+      add_circle(base + along * part_.along, radius, part_.sine, [&](std::uint32_t i, const Vec3&) {
         return glm::dvec2(static_cast<double>(i) / sides_,
-                          v_on_cone(outwards(i % sides_), share * length + sine * radius));
+                          v_on_cone(outwards(i % sides_), along + part_.sine * radius));
       });
     };
-    add_ring(0.0);
+    add_ring(-part_.base_gap);
     for (std::uint32_t band = 1; band <= part_.bands; ++band) {
-      add_ring(static_cast<double>(band) / part_.bands);
+      add_ring(glm::mix(-part_.base_gap, length + part_.end_gap, static_cast<double>(band) / part_.bands));
       join_circles(vertex_ - 2 * (sides_ + 1), vertex_ - (sides_ + 1));
     }
   }
@@ -279,8 +305,9 @@ class PartBuilder {
     const double length = skeleton_.length(node_);
     const double girth = std::numbers::pi * (part_.base_radius + end_radius_);
     const auto shift = [&](const Vec3& bend) { return glm::dot(side, bend) / glm::dot(part_.along, bend); };
-    const double from = -part_.base_radius * shift(part_.base_bend);
-    const double seen = std::max(length - end_radius_ * shift(part_.bend) - from, kLeastBark * length);
+    const double from = part_.base_meeting - part_.base_radius * shift(part_.base_bend);
+    const double to = length + part_.end_meeting - end_radius_ * shift(part_.bend);
+    const double seen = std::max(to - from, kLeastBark * length);
     return part_.v + ((x - from) / seen - 1.0) * length / girth;
   }
 
@@ -318,8 +345,9 @@ class PartBuilder {
     const double angle =
         std::atan2(glm::dot(below, glm::cross(part_.along, part_.side)), glm::dot(below, part_.side));
     const double own = angle / (2.0 * std::numbers::pi);
-    return {own + std::round(u - own),
-            part_.v + std::asin(std::clamp(height, -1.0, 1.0)) / (2.0 * std::numbers::pi)};
+    const double arc = std::asin(std::clamp(height, -1.0, 1.0)) -
+                       std::asin(std::clamp(part_.end_meeting / end_radius_, -1.0, 1.0));
+    return {own + std::round(u - own), part_.v + arc / (2.0 * std::numbers::pi)};
   }
 
   /// Instead of what has been laid: all surfaces about one place show the same there.

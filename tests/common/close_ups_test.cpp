@@ -1,6 +1,8 @@
 // What would be seen from near: tips, the joints of bends, what lies on the ground.
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -97,6 +99,37 @@ TEST_CASE("close-ups: between the cones of a bend no notch is left open") {
           CHECK(reach(mesh, {0, 1, 0}, outwards) > 0.1 * std::cos(std::numbers::pi / sides) * 0.93);
         }
       }
+    }
+  }
+}
+
+TEST_CASE("close-ups: cones of other tapers meet without a step, in outline and in bark") {
+  // The third internode tapers more, or less, than those beside it.
+  for (const std::array<double, 5>& radii :
+       {std::array{0.2, 0.19, 0.18, 0.1, 0.09}, {0.2, 0.12, 0.1, 0.1, 0.1}, {0.1, 0.1, 0.12, 0.19, 0.19}}) {
+    Skeleton s;
+    for (std::uint32_t i = 0; i < 5; ++i)
+      add_node(s, {0, 0.3 * i, 0}, i == 0 ? kNoParent : i - 1, 2.0 * radii[i]);
+    assign_axes(s);
+    const Mesh mesh = build_mesh(s, {.method = MeshMethod::cones});
+    constexpr double step = 0.002;
+    const Vec3 outwards = glm::normalize(Vec3(0.9, 0.0, 0.2));
+    std::optional<double> before;
+    std::optional<double> v_before;
+    for (double height = 0.1; height < 1.1; height += step) {
+      const auto hit = last_hit(mesh, {0, height, 0}, outwards);
+      REQUIRE(hit);
+      const auto& [triangle, at] = *hit;
+      const auto v_of = [&](std::size_t corner) { return double{mesh.uvs[triangle[corner]].y}; };
+      const double v = v_of(0) * (1.0 - at.second - at.third) + v_of(1) * at.second + v_of(2) * at.third;
+      INFO(radii[2] << " m, at " << height << " m");
+      if (before) {
+        CHECK(std::abs(at.distance - *before) < 0.4 * step);
+        CHECK(v > *v_before);
+        CHECK(v - *v_before < 2.0 * step / (2.0 * std::numbers::pi * at.distance));
+      }
+      before = at.distance;
+      v_before = v;
     }
   }
 }
