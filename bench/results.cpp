@@ -8,6 +8,8 @@
 #include <cmath>
 #include <exception>
 
+#include "bench/machine.h"
+
 namespace ramify::bench {
 namespace {
 
@@ -124,6 +126,7 @@ void GoalTable::print() const {
   for (const Row& row : rows_) {
     fmt::print(layout, row.work, row.measured, row.reach, row.stretch, row.verdict);
   }
+  print_machine();
 }
 
 void print_if_busy(const std::vector<Outcome>& outcomes) {

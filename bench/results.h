@@ -60,6 +60,7 @@ class GoalTable {
   /// A statement that holds or does not.
   void add_claim(const std::string& work, std::optional<bool> holds);
 
+  /// With a line on the machine, which numbers that are no ratios go by.
   void print() const;
 
  private:
