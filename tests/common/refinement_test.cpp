@@ -55,7 +55,7 @@ struct Sheet {
   }
 };
 
-/// A uneven grid of n x n squares from -1 to 1, longer one way than the other.
+/// An uneven grid of n x n squares from -1 to 1, longer one way than the other.
 Sheet grid(std::uint32_t n, std::uint64_t seed) {
   Rng rng = Rng::stream(seed, Stream::leaf, 0);
   Sheet sheet;
