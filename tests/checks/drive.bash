@@ -30,9 +30,10 @@ start() {
 }
 
 # wait_for PATTERN [LINES]: until such a line comes after the first LINES of the log.
+# Two minutes at least: a slow machine that runs another check beside takes more than half of one for the largest tree.
 wait_for() {
   local i
-  for ((i = 0; i < 600 * patience; ++i)); do
+  for ((i = 0; i < 2400 * patience; ++i)); do
     tail -n "+$((${2:-0} + 1))" "$log" | grep -q -- "^$1" && return
     kill -0 "$process" 2> /dev/null || fail "it ended while '$1' was awaited"
     sleep 0.05
