@@ -103,7 +103,6 @@ bool is_squeezed(const NodePart& part, double length, double end_radius) {
 
 struct ConesPlan {
   std::vector<NodePart> parts;
-  std::vector<bool> goes_on;               // whether each node's axis does from its parent
   std::vector<bool> has_roots;             // of each tree; without, it stands flat on the ground
   bool has_winding = false;                // some axis
   std::optional<BarkStretches> stretches;  // if so, in the end
@@ -139,12 +138,13 @@ void join_cones(NodePart& below, NodePart& above, double radius) {
 }
 
 /// Bark lies on these by the place alone.
-void find_winding_axes(const Skeleton& skeleton, double thinnest, ConesPlan& plan) {
+void find_winding_axes(const Skeleton& skeleton, const std::vector<bool>& going_on, double thinnest,
+                       ConesPlan& plan) {
   std::vector<std::uint32_t> first(plan.parts.size());  // node of each one's axis
   std::vector<bool> winds(plan.parts.size(), false);    // of those nodes
   for (std::uint32_t node = 0; node < first.size(); ++node) {
     const NodePart& part = plan.parts[node];
-    first[node] = plan.goes_on[node] ? first[skeleton.parent[node]] : node;
+    first[node] = going_on[node] ? first[skeleton.parent[node]] : node;
     if (part.has_cone && is_squeezed(part, skeleton.length(node), radius(skeleton, node, thinnest)))
       winds[first[node]] = plan.has_winding = true;
   }
@@ -157,20 +157,20 @@ void find_winding_axes(const Skeleton& skeleton, double thinnest, ConesPlan& pla
 
 /// Frames are carried along each axis, so that bark does not turn from one cone to the next. With a
 /// tolerance, metres, axes that reach no farther are left out, like spheres of its size.
-ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, double tolerance = 0.0) {
+ConesPlan plan_cones(const Skeleton& skeleton, const std::vector<bool>& going_on,
+                     const MesherOptions& options, double tolerance = 0.0) {
   const double thinnest = thinnest_radius(skeleton);
   const double greatest = *std::max_element(skeleton.diameter.begin(), skeleton.diameter.end());
   const std::vector<bool> is_kept = kept_axes(skeleton, tolerance);
   ConesPlan plan;
   plan.tolerance = tolerance;
   plan.parts.resize(skeleton.node_count());
-  plan.goes_on = find_going_on(skeleton);
   plan.has_roots.assign(skeleton.root_count(), false);
   std::vector<NodePart>& parts = plan.parts;
   for (std::size_t node = 0; node < parts.size(); ++node) {
     NodePart& part = parts[node];
     const double end_radius = radius(skeleton, node, thinnest);
-    const bool goes_on = plan.goes_on[node];
+    const bool goes_on = going_on[node];
     part.axis_sides = goes_on ? parts[skeleton.parent[node]].axis_sides
                               : side_count(skeleton.diameter[node], greatest, options);
     part.sides = sides_within(part.axis_sides, end_radius, tolerance);
@@ -203,7 +203,7 @@ ConesPlan plan_cones(const Skeleton& skeleton, const MesherOptions& options, dou
     if (part.has_cone) part.sine = (part.base_radius - end_radius) / length;
     if (goes_on && !turns_back && below.has_cone && part.has_cone) join_cones(below, part, part.base_radius);
   }
-  find_winding_axes(skeleton, thinnest, plan);
+  find_winding_axes(skeleton, going_on, thinnest, plan);
   for (NodePart& part : parts) {
     part.first_vertex = plan.vertex_count;
     part.first_triangle = plan.triangle_count;
@@ -415,13 +415,14 @@ class PartBuilder {
 
 Mesh cones_mesh(const Skeleton& skeleton, const MesherOptions& options) {
   if (skeleton.internode_count() == 0) return {};
-  ConesPlan plan = plan_cones(skeleton, options);
+  const std::vector<bool> going_on = find_going_on(skeleton);
+  ConesPlan plan = plan_cones(skeleton, going_on, options);
   const std::size_t budget = triangle_budget(plan.triangle_count, options);
   if (plan.triangle_count > budget) {
     const auto count = [&](double tolerance) {
-      return plan_cones(skeleton, options, tolerance).triangle_count;
+      return plan_cones(skeleton, going_on, options, tolerance).triangle_count;
     };
-    plan = plan_cones(skeleton, options, least_tolerance(skeleton, budget, count));
+    plan = plan_cones(skeleton, going_on, options, least_tolerance(skeleton, budget, count));
   }
   Mesh mesh = wood_of_size(plan.vertex_count, plan.triangle_count);
   const double thinnest = thinnest_radius(skeleton);
