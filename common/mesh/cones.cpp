@@ -35,8 +35,14 @@ constexpr std::uint32_t kTipLatitudes = 5;
 constexpr std::uint32_t kTwigSides = 5;
 constexpr std::uint32_t kTwigTipLatitudes = 3;
 
-// Of a cone of an axis that winds: what lies by the place is not straight along its sides.
-constexpr std::uint32_t kWindingBands = 3;
+// Of an axis that winds: bark that lies by the place is not straight along the sides of its cones and
+// spheres, and where these meet with too few of them it would jump. Sides are so many times more.
+constexpr std::uint32_t kWindingBands = 4;
+constexpr std::uint32_t kWindingSides = 2;
+
+// Of the way between two vertices: one moves no farther towards the other, where the line through both comes
+// out of the ground; triangles between them would be too narrow.
+constexpr double kFarthestOut = 0.9;
 
 /// How the parts of one node lie: its sphere, and the cone from its parent.
 struct NodePart {
@@ -56,12 +62,12 @@ struct NodePart {
   double end_gap = 0.0;
   bool has_cone = false;
   bool has_sphere = false;
-  bool is_tip = false;             // the axis ends here
-  bool winds = false;              // so does the axis: its bends reach into each other, see is_squeezed()
-  std::uint32_t bands = 1;         // of the cone, one above the other
-  std::uint32_t root = 0;          // of the tree
-  std::uint32_t axis_sides = 0;    // of the axis at its base, as thick axes have them
-  std::uint32_t sides = 0;         // of the cone: as many, but for coarse levels
+  bool is_tip = false;           // the axis ends here
+  bool winds = false;            // so does the axis: its bends reach into each other, see is_squeezed()
+  std::uint32_t bands = 1;       // of the cone, one above the other
+  std::uint32_t root = 0;        // of the tree
+  std::uint32_t axis_sides = 0;  // of the axis at its base, as thick axes have them
+  std::uint32_t sides = 0;       // of the cone: as many, more where the axis winds, or less on coarse levels
   std::uint32_t sphere_sides = 0;  // as many, or twice where the axis bends
   std::size_t first_vertex = 0;
   std::size_t first_triangle = 0;
@@ -151,7 +157,9 @@ void find_winding_axes(const Skeleton& skeleton, const std::vector<bool>& going_
   for (std::size_t node = 0; node < first.size(); ++node) {
     NodePart& part = plan.parts[node];
     part.winds = winds[first[node]];
-    if (part.winds && plan.tolerance <= 0.0) part.bands = kWindingBands;
+    if (!part.winds || plan.tolerance > 0.0) continue;
+    part.bands = kWindingBands;
+    part.sides = part.sphere_sides = kWindingSides * part.axis_sides;
   }
 }
 
@@ -223,9 +231,7 @@ class PartBuilder {
         part_(plan.parts[node]),
         end_radius_(end_radius),
         stretches_(part_.winds ? &*plan.stretches : nullptr),
-        mesh_(mesh),
-        vertex_(part_.first_vertex),
-        triangle_(part_.first_triangle) {
+        mesh_(mesh) {
     // What itself grows down there is not cut off.
     const double ground = skeleton.position[part_.root].y;
     const std::size_t below = skeleton.is_root(node) ? node : skeleton.parent[node];
@@ -234,12 +240,33 @@ class PartBuilder {
   }
 
   void build() {
-    if (part_.has_cone) add_cone();
-    if (part_.has_sphere) add_sphere();
+    add_parts();
+    if (has_moved_out_ && is_turned_over()) {
+      moves_out_ = false;
+      add_parts();
+    }
     if (stretches_) lay_bark_by_place();
   }
 
  private:
+  void add_parts() {
+    vertex_ = part_.first_vertex;
+    triangle_ = part_.first_triangle;
+    if (part_.has_cone) add_cone();
+    if (part_.has_sphere) add_sphere();
+  }
+
+  /// Whether some triangle faces inwards.
+  bool is_turned_over() const {
+    for (std::size_t i = part_.first_triangle; i < triangle_; ++i) {
+      const auto& [a, b, c] = mesh_.triangles[i];
+      const Vec3f across =
+          glm::cross(mesh_.positions[b] - mesh_.positions[a], mesh_.positions[c] - mesh_.positions[a]);
+      if (glm::dot(across, mesh_.normals[a] + mesh_.normals[b] + mesh_.normals[c]) <= 0.0f) return true;
+    }
+    return false;
+  }
+
   Vec3 outwards(std::uint32_t side) const {
     const double angle = 2.0 * std::numbers::pi * side / sides_;
     return side_ * std::cos(angle) + glm::cross(axis_, side_) * std::sin(angle);
@@ -252,17 +279,6 @@ class PartBuilder {
     mesh_.normals[vertex_] = glm::normalize(Vec3f(normal));
     mesh_.uvs[vertex_] = {static_cast<float>(u), static_cast<float>(v)};
     mesh_.internodes[vertex_++] = node_;
-  }
-
-  /// A circle on a sphere, at the height sine * radius above its center. place(i, normal): u and v.
-  template <class Place>
-  void add_circle(const Vec3& center, double radius, double sine, Place place) {
-    const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
-    for (std::uint32_t i = 0; i <= sides_; ++i) {
-      const Vec3 normal = outwards(i % sides_) * cosine + axis_ * sine;
-      const glm::dvec2 uv = place(i, normal);
-      add_vertex(center, radius, normal, uv.x, uv.y);
-    }
   }
 
   void add_triangle(std::size_t a, std::size_t b, std::size_t c) {
@@ -282,21 +298,49 @@ class PartBuilder {
     sides_ = part_.sides;
     axis_ = part_.along;
     side_ = part_.side;
-    const double length = skeleton_.length(node_);
-    const Vec3& base = skeleton_.position[skeleton_.parent[node_]];
-    // The circle that touches the sphere about this point of the axis.
-    const auto add_ring = [&](double along) {
-      const double radius = part_.base_radius - part_.sine * along;
-      add_circle(base + along * part_.along, radius, part_.sine, [&](std::uint32_t i, const Vec3&) {
-        return glm::dvec2(static_cast<double>(i) / sides_,
-                          v_on_cone(outwards(i % sides_), along + part_.sine * radius));
-      });
-    };
-    add_ring(-part_.base_gap);
-    for (std::uint32_t band = 1; band <= part_.bands; ++band) {
-      add_ring(glm::mix(-part_.base_gap, length + part_.end_gap, static_cast<double>(band) / part_.bands));
-      join_circles(vertex_ - 2 * (sides_ + 1), vertex_ - (sides_ + 1));
+    for (std::uint32_t band = 0; band <= part_.bands; ++band) {
+      add_ring(band);
+      if (band > 0) join_circles(vertex_ - 2 * (sides_ + 1), vertex_ - (sides_ + 1));
     }
+  }
+
+  /// Where the cone touches spheres about points of its axis: all one, but for sides that come out of the
+  /// ground.
+  void add_ring(std::uint32_t band) {
+    const Vec3& base = skeleton_.position[skeleton_.parent[node_]];
+    const double low = -part_.base_gap;
+    const double high = skeleton_.length(node_) + part_.end_gap;
+    const double cosine = std::sqrt(1.0 - part_.sine * part_.sine);
+    const auto center = [&](double along) { return base + along * axis_; };
+    const auto radius = [&](double along) { return part_.base_radius - part_.sine * along; };
+    for (std::uint32_t i = 0; i <= sides_; ++i) {
+      const Vec3 side = outwards(i % sides_);
+      const Vec3 normal = side * cosine + axis_ * part_.sine;
+      const auto height = [&](double at) { return center(at).y + radius(at) * normal.y; };
+      const double along = out_of_ground(low, high, part_.bands, band, height);
+      add_vertex(center(along), radius(along), normal, static_cast<double>(i) / sides_,
+                 v_on_cone(side, along + part_.sine * radius(along)));
+    }
+  }
+
+  /// Where the vertex `index` is of a line on the surface with one at each of `steps` from `low` to `high`:
+  /// evenly, but for the one below the ground next to where the line comes out, which is there. Only lifted
+  /// it would leave a notch. height(at): of a place on the line.
+  template <class Height>
+  double out_of_ground(double low, double high, std::uint32_t steps, std::uint32_t index, Height height) {
+    const auto at = [&](std::uint32_t step) {
+      return glm::mix(low, high, static_cast<double>(step) / steps);
+    };
+    const double here = at(index);
+    const double below = ground_ - height(here);
+    if (below <= 0.0 || !moves_out_) return here;
+    for (const std::uint32_t next : {std::min(index + 1, steps), std::max(index, 1u) - 1}) {
+      const double share = below / (height(at(next)) - height(here));
+      if (share <= 0.0 || share > kFarthestOut) continue;
+      has_moved_out_ = true;
+      return glm::mix(here, at(next), share);
+    }
+    return here;
   }
 
   /// On one side of the cone, `x` metres from its base. Where the axis bends, cones meet in a plane: there
@@ -317,14 +361,10 @@ class PartBuilder {
     sides_ = part_.sphere_sides;
     axis_ = part_.bend;
     side_ = transported(part_.side, part_.along, part_.bend);
-    const Vec3& center = skeleton_.position[node_];
     const std::uint32_t bands = latitudes(part_) + 1;
     const std::size_t lowest = vertex_;
     for (std::uint32_t band = 1; band < bands; ++band) {
-      const double latitude = std::numbers::pi * (static_cast<double>(band) / bands - 0.5);
-      add_circle(center, end_radius_, std::sin(latitude), [&](std::uint32_t i, const Vec3& normal) {
-        return on_sphere(static_cast<double>(i) / sides_, normal);
-      });
+      add_circle(band, bands);
       if (band > 1) join_circles(vertex_ - 2 * (sides_ + 1), vertex_ - (sides_ + 1));
     }
     const std::size_t highest = vertex_ - (sides_ + 1);
@@ -333,6 +373,22 @@ class PartBuilder {
       add_pole(-1.0, i);
       add_triangle(highest + i, highest + i + 1, vertex_);
       add_pole(1.0, i);
+    }
+  }
+
+  /// A circle of latitude of the sphere, but where that comes out of the ground.
+  void add_circle(std::uint32_t band, std::uint32_t bands) {
+    const Vec3& center = skeleton_.position[node_];
+    for (std::uint32_t i = 0; i <= sides_; ++i) {
+      const Vec3 side = outwards(i % sides_);
+      const auto normal_at = [&](double latitude) {
+        return side * std::cos(latitude) + axis_ * std::sin(latitude);
+      };
+      const auto height = [&](double at) { return center.y + end_radius_ * normal_at(at).y; };
+      const Vec3 normal =
+          normal_at(out_of_ground(-0.5 * std::numbers::pi, 0.5 * std::numbers::pi, bands, band, height));
+      const glm::dvec2 uv = on_sphere(static_cast<double>(i) / sides_, normal);
+      add_vertex(center, end_radius_, normal, uv.x, uv.y);
     }
   }
 
@@ -406,9 +462,12 @@ class PartBuilder {
   Vec3 axis_{0.0};                                            // unit: it stands around this
   Vec3 side_{0.0};                                            // unit, of its first corner
   double ground_ = -std::numeric_limits<double>::infinity();  // nothing goes lower
+  bool moves_out_ =
+      true;  // vertices to where the surface comes out of the ground, unless that turns some over
+  bool has_moved_out_ = false;
   Mesh& mesh_;
-  std::size_t vertex_;
-  std::size_t triangle_;
+  std::size_t vertex_ = 0;
+  std::size_t triangle_ = 0;
 };
 
 }  // namespace
