@@ -31,8 +31,10 @@ class PartBuilder {
     // What itself grows down there is not cut off.
     const double ground = skeleton.position[part_.root].y;
     const std::size_t below = skeleton.is_root(node) ? node : skeleton.parent[node];
-    const bool is_above = std::min(skeleton.position[below].y, skeleton.position[node].y) >= ground;
-    if (!plan.has_roots[part_.root] && is_above) ground_ = ground;
+    const double lowest = std::min(skeleton.position[below].y, skeleton.position[node].y);
+    if (plan.has_roots[part_.root] || lowest < ground) return;
+    ground_ = ground;
+    moves_out_ = lowest - std::max(part_.base_radius, part_.radius) < ground;
   }
 
   void build() {
@@ -128,8 +130,9 @@ class PartBuilder {
       return glm::mix(low, high, static_cast<double>(step) / steps);
     };
     const double here = at(index);
+    if (!moves_out_) return here;
     const double below = ground_ - height(here);
-    if (below <= 0.0 || !moves_out_) return here;
+    if (below <= 0.0) return here;
     for (const std::uint32_t next : {std::min(index + 1, steps), std::max(index, 1u) - 1}) {
       const double share = below / (height(at(next)) - height(here));
       if (share <= 0.0 || share > kFarthestOut) continue;
@@ -175,14 +178,20 @@ class PartBuilder {
   /// A circle of latitude of the sphere, but where that comes out of the ground.
   void add_circle(std::uint32_t band, std::uint32_t bands) {
     const Vec3& center = skeleton_.position[node_];
+    const double south = -0.5 * std::numbers::pi;
+    const double even = glm::mix(south, -south, static_cast<double>(band) / bands);
+    const double cosine = std::cos(even);
+    const double sine = std::sin(even);
     for (std::uint32_t i = 0; i <= sides_; ++i) {
       const Vec3 side = outwards(i % sides_);
-      const auto normal_at = [&](double latitude) {
-        return side * std::cos(latitude) + axis_ * std::sin(latitude);
-      };
-      const auto height = [&](double at) { return center.y + part_.radius * normal_at(at).y; };
-      const Vec3 normal =
-          normal_at(out_of_ground(-0.5 * std::numbers::pi, 0.5 * std::numbers::pi, bands, band, height));
+      Vec3 normal = side * cosine + axis_ * sine;
+      if (moves_out_) {
+        const auto at = [&](double latitude) {
+          return side * std::cos(latitude) + axis_ * std::sin(latitude);
+        };
+        const auto height = [&](double latitude) { return center.y + part_.radius * at(latitude).y; };
+        normal = at(out_of_ground(south, -south, bands, band, height));
+      }
       const glm::dvec2 uv = on_sphere(static_cast<double>(i) / sides_, normal);
       add_vertex(center, part_.radius, normal, uv.x, uv.y);
     }
