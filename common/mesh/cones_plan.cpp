@@ -30,9 +30,11 @@ constexpr std::uint32_t kTwigSides = 5;
 constexpr std::uint32_t kTwigTipLatitudes = 3;
 
 // Of an axis that winds: bark that lies by the place is not straight along the sides of its cones and
-// spheres, and where these meet with too few of them it would jump. Sides are so many times more.
-constexpr std::uint32_t kWindingBands = 4;
-constexpr std::uint32_t kWindingSides = 2;
+// spheres, and where these meet with too few of them it would jump, by a length that goes with its radius
+// over their square.
+constexpr std::uint32_t kWindingBands = 6;
+constexpr double kWindingSides = 3.0;  // times as many on the thickest wood
+constexpr double kLeastWindingSides = 2.0;
 
 // A ring repeats its first vertex at the end, where u jumps from 1 to 0; a pole has a vertex a side.
 std::size_t vertex_count(const NodePart& part) {
@@ -105,12 +107,15 @@ void find_winding_axes(const Skeleton& skeleton, const std::vector<bool>& going_
     if (part.has_cone && is_squeezed(part, skeleton.length(node)))
       winds[first[node]] = plan.has_winding = true;
   }
+  const double greatest = std::ranges::max(plan.parts, {}, &NodePart::radius).radius;
   for (std::size_t node = 0; node < first.size(); ++node) {
     NodePart& part = plan.parts[node];
     part.winds = winds[first[node]];
     if (!part.winds || tolerance > 0.0) continue;
+    const double times = kWindingSides * std::sqrt(plan.parts[first[node]].radius / greatest);
     part.bands = kWindingBands;
-    part.sides = part.sphere_sides = kWindingSides * part.axis_sides;
+    part.sides = part.sphere_sides =
+        static_cast<std::uint32_t>(std::lround(std::max(times, kLeastWindingSides) * part.axis_sides));
   }
 }
 

@@ -13,7 +13,7 @@
 namespace ramify {
 
 // Of the length of a cone: its bark is squeezed or stretched no more than that by the bends at its ends.
-constexpr double kLeastBark = 0.3;
+constexpr double kLeastBark = 0.5;
 
 /// How the parts of one node lie: its sphere, and the cone from its parent.
 struct NodePart {
