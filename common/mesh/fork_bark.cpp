@@ -27,7 +27,8 @@ constexpr int kRefinements = 10;
 // counts so often towards the fade.
 constexpr float kAgainstStretch = 2.0f;
 
-// In radii of the lateral: how far above its surface.
+// In radii of the lateral: how far above its surface, but no farther than from the bearer's: where a closed
+// surface goes on from one to the other, an edge would stand out.
 constexpr float kAbove = 0.004f;
 
 // Cosine between a surface's normal and the way to a point below which that lies inside.
@@ -98,12 +99,13 @@ struct Patch {
 class PatchMaker {
  public:
   PatchMaker(const Mesh& mesh, const Skeleton& skeleton, const BarkStretches& stretches, const Joint& joint,
-             float repeats, const std::vector<std::uint32_t>& bearer)
+             float repeats, bool is_closed, const std::vector<std::uint32_t>& bearer)
       : mesh_(mesh),
         skeleton_(skeleton),
         stretches_(stretches),
         joint_(joint),
         repeats_(repeats),
+        is_closed_(is_closed),
         fade_(kFade * joint.radius),
         bearer_(mesh, bearer) {}
 
@@ -163,8 +165,9 @@ class PatchMaker {
     cover.distance = std::sqrt(nearest.distance2);
     const float girth = 2.0f * std::numbers::pi_v<float> * joint_.older_radius;
     const float missing = std::max(cover.distance - glm::length(girths) * girth, 0.0f);
-    // At a closed surface's border with the lateral it goes on to both sides.
-    if (glm::dot(point - nearest.point, normal) < kInside * cover.distance) cover.distance *= -1.0f;
+    // Behind the border of a part of a closed surface one is not inside.
+    if (!is_closed_ && glm::dot(point - nearest.point, normal) < kInside * cover.distance)
+      cover.distance *= -1.0f;
     const float from_fork = glm::distance(point, Vec3f(skeleton_.position[skeleton_.parent[joint_.lateral]]));
     cover.opacity = (1.0f - glm::smoothstep(0.0f, fade_, cover.distance + kAgainstStretch * missing)) *
                     (1.0f - glm::smoothstep(0.6f * joint_.reach, joint_.reach, from_fork));
@@ -216,8 +219,9 @@ class PatchMaker {
           copies_.try_emplace({triangle[i], turns}, static_cast<std::uint32_t>(patch_.vertices.size()));
       copy[i] = found->second;
       if (!is_new) continue;
-      patch_.vertices.push_back(vertices_[triangle[i]]);
-      patch_.vertices.back().color.a = 255.0f * cover.opacity;
+      SurfaceVertex& vertex = patch_.vertices.emplace_back(vertices_[triangle[i]]);
+      vertex.position += vertex.normal * std::min(kAbove * joint_.radius, std::abs(cover.distance));
+      vertex.color.a = 255.0f * cover.opacity;
       patch_.uvs.emplace_back(cover.uv.x + static_cast<float>(turns) * repeats_, cover.uv.y);
     }
     patch_.triangles.push_back(copy);
@@ -228,6 +232,7 @@ class PatchMaker {
   const BarkStretches& stretches_;
   const Joint& joint_;
   const float repeats_;
+  const bool is_closed_;
   const float fade_;
   const TriangleTree bearer_;
   std::vector<SurfaceVertex> vertices_;
@@ -259,8 +264,8 @@ void append_patches(Mesh& mesh, const std::vector<Joint>& joints, const std::vec
     const auto base = static_cast<std::uint32_t>(vertex);
     for (std::size_t v = 0; v < patches[i].vertices.size(); ++v, ++vertex) {
       const auto& [position, normal, color] = patches[i].vertices[v];
+      mesh.positions[vertex] = position;
       mesh.normals[vertex] = normal;
-      mesh.positions[vertex] = position + normal * (kAbove * joints[i].radius);
       mesh.uvs[vertex] = patches[i].uvs[v];
       for (int part = 0; part < 4; ++part)
         mesh.colors[vertex][part] = static_cast<std::uint8_t>(color[part] + 0.5f);
@@ -273,7 +278,7 @@ void append_patches(Mesh& mesh, const std::vector<Joint>& joints, const std::vec
 
 }  // namespace
 
-void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const float> repeats) {
+void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const float> repeats, bool is_closed) {
   const auto is_bark = [&](const MaterialRange& range) { return mesh.material(range).name == "bark"; };
   const auto bark = std::find_if(mesh.ranges.begin(), mesh.ranges.end(), is_bark);
   if (bark == mesh.ranges.end() || mesh.material(*bark).image.is_empty()) return;
@@ -287,7 +292,7 @@ void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const floa
       const Joint& joint = joints[i];
       const std::vector<std::uint32_t> bearer = triangles.of(joint.older_nodes);
       if (bearer.empty()) continue;
-      patches[i] = PatchMaker(mesh, skeleton, stretches, joint, repeats[joint.older], bearer)
+      patches[i] = PatchMaker(mesh, skeleton, stretches, joint, repeats[joint.older], is_closed, bearer)
                        .make(triangles.of(joint.lateral_nodes));
     }
   });
