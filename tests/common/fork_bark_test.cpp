@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include "common/base/parallel.h"
@@ -309,6 +310,54 @@ TEST_CASE("fork bark: it fades out evenly where a side goes straight out, withou
       CHECK(surface.nearest(mesh.positions[v]).distance2 < 0.001f * 0.001f);
       CHECK(glm::length(mesh.normals[v]) == Approx(1.0f));
     }
+  }
+}
+
+TEST_CASE("fork bark: on a closed surface it begins on the bearer's, without an edge, and fades out evenly") {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    // Limbs about as thick as the trunk, which part within its width.
+    Rng random = Rng::stream(seed, Stream::bud, 0);
+    Skeleton tree;
+    for (std::uint32_t i = 0; i <= 3; ++i) add_node(tree, {0, 0.3 * i, 0}, i == 0 ? kNoParent : i - 1, 0.3);
+    for (std::uint32_t limb = 0; limb < 4; ++limb) {
+      const std::uint32_t from = limb < 2 ? 2 : 3;
+      const double lean = radians(random.uniform(20.0, 80.0));
+      const double azimuth = radians(random.uniform(0.0, 360.0));
+      const Vec3 along(std::sin(lean) * std::cos(azimuth), std::cos(lean),
+                       std::sin(lean) * std::sin(azimuth));
+      for (std::uint32_t i = 1; i <= 3; ++i) {
+        const auto last = static_cast<std::uint32_t>(tree.node_count() - 1);
+        add_node(tree, tree.position[from] + 0.25 * i * along, i == 1 ? from : last, 0.28);
+      }
+    }
+    assign_axes(tree);
+    Looks looks = looks_with(MeshMethod::watertight);
+    looks.mesher.voxel_size = 0.01;
+    const Mesh mesh = mesh_of(tree, looks);
+    const MaterialRange* overlay = overlay_of(mesh);
+    REQUIRE(overlay != nullptr);
+    const auto place = [&](std::uint32_t v) {
+      const Vec3f& p = mesh.positions[v];
+      return std::tuple(p.x, p.y, p.z);
+    };
+    std::set<decltype(place(0))> solid;
+    for (std::uint32_t v = 0; v < solid_part(mesh).vertex_count; ++v) solid.insert(place(v));
+    std::size_t begins = 0;
+    double steepest = 0.0;
+    for (std::size_t t = overlay->first_triangle; t < mesh.triangles.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = mesh.triangles[t][k];
+        const std::uint32_t b = mesh.triangles[t][(k + 1) % 3];
+        begins += solid.contains(place(a));
+        const double change = std::abs(mesh.colors[a][3] - mesh.colors[b][3]) / 255.0 - 0.01;
+        steepest =
+            std::max(steepest, change * 0.6 * 0.14 / glm::distance(mesh.positions[a], mesh.positions[b]));
+      }
+    }
+    INFO("seed " << seed);
+    CHECK(begins > 500);
+    // A smooth step rises by 1.5 at the most; against stretch it goes three times as quickly.
+    CHECK(steepest < 1.5 * 1.5 * 3.0);
   }
 }
 
