@@ -70,8 +70,7 @@ class PartBuilder {
     return side_ * std::cos(angle) + glm::cross(axis_, side_) * std::sin(angle);
   }
 
-  void add_vertex(const Vec3& center, double radius, const Vec3& normal, double u, double v) {
-    Vec3 position = center + radius * normal;
+  void add_vertex(Vec3 position, const Vec3& normal, double u, double v) {
     position.y = std::max(position.y, ground_);
     mesh_.positions[vertex_] = Vec3f(position);
     mesh_.normals[vertex_] = glm::normalize(Vec3f(normal));
@@ -109,14 +108,17 @@ class PartBuilder {
     const double low = -part_.base_gap;
     const double high = skeleton_.length(node_) + part_.end_gap;
     const double cosine = std::sqrt(1.0 - part_.sine * part_.sine);
-    const auto center = [&](double along) { return base + along * axis_; };
+    const double lean = glm::mix(part_.base_lean, part_.end_lean, static_cast<double>(band) / part_.bands);
+    const double lean_cosine = std::cos(lean);
+    const double lean_sine = std::sin(lean);
     const auto radius = [&](double along) { return part_.base_radius - part_.sine * along; };
     for (std::uint32_t i = 0; i <= sides_; ++i) {
       const Vec3 side = outwards(i % sides_);
-      const Vec3 normal = side * cosine + axis_ * part_.sine;
-      const auto height = [&](double at) { return center(at).y + radius(at) * normal.y; };
+      const Vec3 from_center = side * cosine + axis_ * part_.sine;
+      const auto place = [&](double along) { return base + along * axis_ + radius(along) * from_center; };
+      const auto height = [&](double at) { return place(at).y; };
       const double along = out_of_ground(low, high, part_.bands, band, height);
-      add_vertex(center(along), radius(along), normal, static_cast<double>(i) / sides_,
+      add_vertex(place(along), side * lean_cosine + axis_ * lean_sine, static_cast<double>(i) / sides_,
                  v_on_cone(side, along + part_.sine * radius(along)));
     }
   }
@@ -193,7 +195,7 @@ class PartBuilder {
         normal = at(out_of_ground(south, -south, bands, band, height));
       }
       const glm::dvec2 uv = on_sphere(static_cast<double>(i) / sides_, normal);
-      add_vertex(center, part_.radius, normal, uv.x, uv.y);
+      add_vertex(center + part_.radius * normal, normal, uv.x, uv.y);
     }
   }
 
@@ -255,7 +257,7 @@ class PartBuilder {
   void add_pole(double sign, std::uint32_t side) {
     const Vec3 normal = axis_ * sign;
     const double u = (side + 0.5) / sides_;
-    add_vertex(skeleton_.position[node_], part_.radius, normal, u, on_sphere(u, normal).y);
+    add_vertex(skeleton_.position[node_] + part_.radius * normal, normal, u, on_sphere(u, normal).y);
   }
 
   const Skeleton& skeleton_;

@@ -80,7 +80,9 @@ void join_cones(NodePart& below, NodePart& above) {
   below.end_meeting = above.base_meeting = below.radius * std::sin(0.5 * (low + high)) / std::cos(half_apart);
   // At a bend the sphere is seen in any case; as a shoulder it is rounder than an edge.
   const bool shows_sphere = half_apart > kShoulder || glm::dot(below.along, above.along) < kStraight;
-  if (half_apart <= 0.0 || shows_sphere) return;
+  if (shows_sphere) return;
+  below.end_lean = above.base_lean = 0.5 * (low + high);
+  if (half_apart <= 0.0) return;
   below.end_gap = below.radius * std::tan(half_apart) / std::cos(low);
   above.base_gap = below.radius * std::tan(half_apart) / std::cos(high);
 }
@@ -151,6 +153,7 @@ ConesPlan plan_within(double tolerance, const Skeleton& skeleton, const std::vec
     part.v = length / (std::numbers::pi * (part.base_radius + part.radius));
     part.has_cone = is_kept[node] && length > std::abs(part.base_radius - part.radius) + thinnest;
     if (part.has_cone) part.sine = (part.base_radius - part.radius) / length;
+    part.base_lean = part.end_lean = std::asin(part.sine);
     if (going_on[node]) go_on(below, part, tolerance <= 0.0);
     if (skeleton.is_root(parent) && part.along.y < 0.0) plan.has_roots[parent] = true;
   }

@@ -32,6 +32,10 @@ struct NodePart {
   // Along the axis, metres, that a cone is longer to meet there, where else the sphere would be seen.
   double base_gap = 0.0;
   double end_gap = 0.0;
+  // Angle by which normals lean towards the tip, at both ends of the cone: those of its sides, but where
+  // cones of different taper meet halfway between both, so that no edge shows.
+  double base_lean = 0.0;
+  double end_lean = 0.0;
   bool has_cone = false;
   bool has_sphere = false;
   bool is_tip = false;           // the axis ends here

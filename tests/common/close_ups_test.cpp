@@ -103,7 +103,7 @@ TEST_CASE("close-ups: between the cones of a bend no notch is left open") {
   }
 }
 
-TEST_CASE("close-ups: cones of other tapers meet without a step, in outline and in bark") {
+TEST_CASE("close-ups: cones of other tapers meet without a step, in outline, bark and shading") {
   // The third internode tapers more, or less, than those beside it.
   for (const std::array<double, 5>& radii :
        {std::array{0.2, 0.19, 0.18, 0.1, 0.09}, {0.2, 0.12, 0.1, 0.1, 0.1}, {0.1, 0.1, 0.12, 0.19, 0.19}}) {
@@ -116,20 +116,27 @@ TEST_CASE("close-ups: cones of other tapers meet without a step, in outline and 
     const Vec3 outwards = glm::normalize(Vec3(0.9, 0.0, 0.2));
     std::optional<double> before;
     std::optional<double> v_before;
-    for (double height = 0.1; height < 1.1; height += step) {
+    Vec3f normal_before(0.0f);
+    for (double height = 0.101; height < 1.1; height += step) {  // beside the nodes, where spheres touch
       const auto hit = last_hit(mesh, {0, height, 0}, outwards);
       REQUIRE(hit);
       const auto& [triangle, at] = *hit;
       const auto v_of = [&](std::size_t corner) { return double{mesh.uvs[triangle[corner]].y}; };
       const double v = v_of(0) * (1.0 - at.second - at.third) + v_of(1) * at.second + v_of(2) * at.third;
+      const auto normal_of = [&](std::size_t corner) { return mesh.normals[triangle[corner]]; };
+      const Vec3f normal = glm::normalize(normal_of(0) * static_cast<float>(1.0 - at.second - at.third) +
+                                          normal_of(1) * static_cast<float>(at.second) +
+                                          normal_of(2) * static_cast<float>(at.third));
       INFO(radii[2] << " m, at " << height << " m");
       if (before) {
+        CHECK(std::abs(normal.y - normal_before.y) < 0.02f);
         CHECK(std::abs(at.distance - *before) < 0.4 * step);
         CHECK(v > *v_before);
         CHECK(v - *v_before < 2.0 * step / (2.0 * std::numbers::pi * at.distance));
       }
       before = at.distance;
       v_before = v;
+      normal_before = normal;
     }
   }
 }
