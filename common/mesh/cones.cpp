@@ -39,7 +39,7 @@ class PartBuilder {
 
   void build() {
     add_parts();
-    if (has_moved_out_ && is_turned_over()) {
+    if (has_moved_out_ && is_turned_over()) {  // lying cones of few sides
       moves_out_ = false;
       add_parts();
     }
@@ -268,8 +268,7 @@ class PartBuilder {
   Vec3 axis_{0.0};                                            // unit: it stands around this
   Vec3 side_{0.0};                                            // unit, of its first corner
   double ground_ = -std::numeric_limits<double>::infinity();  // nothing goes lower
-  bool moves_out_ =
-      true;  // vertices to where the surface comes out of the ground, unless that turns some over
+  bool moves_out_ = false;  // vertices to where the surface comes out of the ground
   bool has_moved_out_ = false;
   Mesh& mesh_;
   std::size_t vertex_ = 0;

@@ -74,8 +74,8 @@ std::vector<bool> find_going_on(const Skeleton& skeleton) {
 
 /// Lets two cones that follow one another meet about the node between them.
 void join_cones(NodePart& below, NodePart& above) {
-  const double low = std::asin(below.sine);
-  const double high = std::asin(above.sine);
+  const double low = below.end_lean;
+  const double high = above.base_lean;
   const double half_apart = 0.5 * (high - low);
   below.end_meeting = above.base_meeting = below.radius * std::sin(0.5 * (low + high)) / std::cos(half_apart);
   // At a bend the sphere is seen in any case; as a shoulder it is rounder than an edge.
