@@ -9,6 +9,7 @@
 #include "common/mesh/joints.h"
 #include "common/mesh/nearest_triangle.h"
 #include "common/mesh/refinement.h"
+#include "common/mesh/wood.h"
 
 namespace ramify {
 namespace {
@@ -20,8 +21,14 @@ constexpr float kFade = 0.6f;
 constexpr float kLongest = 2.0f;
 constexpr float kOpacityStep = 0.5f;
 
+// Where a lateral comes out of its bearer the opacity is no less than this, but edges of so many fades are
+// not halved for it. In widths of the thickest wood: thinner laterals are not worth the triangles.
+constexpr float kCovers = 0.9f;
+constexpr float kShortest = 0.2f;
+constexpr float kThick = 0.1f;
+
 // Times that the overlay is refined at the most: triangles without area could be for ever.
-constexpr int kRefinements = 10;
+constexpr int kRefinements = 14;
 
 // Where a lateral goes straight out, the bearer's bark is stretched along it: what is missing of it then
 // counts so often towards the fade.
@@ -96,18 +103,29 @@ struct Patch {
   std::vector<Triangle> triangles;  // indices into these
 };
 
+/// What all patches are made of.
+struct Tree {
+  const Mesh& mesh;
+  const Skeleton& skeleton;
+  const MesherOptions& options;
+  BarkStretches stretches;
+  double thickest = 0.0;  // diameter, metres
+};
+
 class PatchMaker {
  public:
-  PatchMaker(const Mesh& mesh, const Skeleton& skeleton, const BarkStretches& stretches, const Joint& joint,
-             float repeats, bool is_closed, const std::vector<std::uint32_t>& bearer)
-      : mesh_(mesh),
-        skeleton_(skeleton),
-        stretches_(stretches),
+  PatchMaker(const Tree& tree, const Joint& joint, float repeats, const std::vector<std::uint32_t>& bearer)
+      : mesh_(tree.mesh),
+        skeleton_(tree.skeleton),
+        stretches_(tree.stretches),
         joint_(joint),
         repeats_(repeats),
-        is_closed_(is_closed),
+        method_(tree.options.method),
         fade_(kFade * joint.radius),
-        bearer_(mesh, bearer) {}
+        is_thick_(2.0 * joint.radius >= kThick * tree.thickest),
+        apothem_(
+            std::cos(std::numbers::pi / side_count(2.0 * joint.older_radius, tree.thickest, tree.options))),
+        bearer_(tree.mesh, bearer) {}
 
   Patch make(const std::vector<std::uint32_t>& lateral) {
     cover(lateral);
@@ -119,7 +137,7 @@ class PatchMaker {
   }
 
  private:
-  /// The triangles of the lateral on which the bearer's bark may be seen.
+  /// All triangles of the lateral: on what is bare at its corners the bark may be seen between them.
   void cover(const std::vector<std::uint32_t>& lateral) {
     std::map<std::uint32_t, std::uint32_t> places;  // of the mesh's vertices among these
     for (const std::uint32_t t : lateral) {
@@ -130,7 +148,7 @@ class PatchMaker {
         triangle[i] = found->second;
         if (is_new) add_vertex({mesh_.positions[v], mesh_.normals[v], color_of(v)});
       }
-      if (is_seen(triangle)) triangles_.push_back(triangle);
+      triangles_.push_back(triangle);
     }
   }
 
@@ -164,14 +182,36 @@ class PatchMaker {
         mesh_.normals[a] * shares.x + mesh_.normals[b] * shares.y + mesh_.normals[c] * shares.z;
     cover.distance = std::sqrt(nearest.distance2);
     const float girth = 2.0f * std::numbers::pi_v<float> * joint_.older_radius;
-    const float missing = std::max(cover.distance - glm::length(girths) * girth, 0.0f);
-    // Behind the border of a part of a closed surface one is not inside.
-    if (!is_closed_ && glm::dot(point - nearest.point, normal) < kInside * cover.distance)
+    float missing = std::max(cover.distance - glm::length(girths) * girth, 0.0f);
+    if (is_inside(point, glm::dot(point - nearest.point, normal), cover.distance)) {
       cover.distance *= -1.0f;
+      missing = 0.0f;
+    }
     const float from_fork = glm::distance(point, Vec3f(skeleton_.position[skeleton_.parent[joint_.lateral]]));
     cover.opacity = (1.0f - glm::smoothstep(0.0f, fade_, cover.distance + kAgainstStretch * missing)) *
                     (1.0f - glm::smoothstep(0.6f * joint_.reach, joint_.reach, from_fork));
     return cover;
+  }
+
+  /// Of a point so far from the bearer's surface, and so far along the normal there: whether in the bearer.
+  bool is_inside(const Vec3f& point, float along_normal, float distance) const {
+    // Behind the border of a part of a closed surface one is not inside.
+    if (method_ == MeshMethod::watertight) return false;
+    if (along_normal < kInside * distance) return true;
+    // What comes out of a node's sphere may still be within a cone.
+    return method_ == MeshMethod::cones && std::ranges::any_of(joint_.older_nodes, [&](std::uint32_t node) {
+             return is_in_cone(point, node);
+           });
+  }
+
+  bool is_in_cone(const Vec3f& point, std::uint32_t node) const {
+    if (skeleton_.is_root(node)) return false;
+    const Vec3 base = skeleton_.position[skeleton_.parent[node]];
+    const Vec3 along = skeleton_.position[node] - base;
+    const Vec3 from_base = Vec3(point) - base;
+    const double share = glm::dot(from_base, along) / std::max(glm::dot(along, along), 1e-12);
+    return glm::distance(from_base, std::clamp(share, 0.0, 1.0) * along) <
+           apothem_ * 0.5 * skeleton_.diameter[node];
   }
 
   /// How far the bearer's chart goes on from a point of its surface, at an internode, to another: in girths.
@@ -185,13 +225,16 @@ class PatchMaker {
     return glm::distance(vertices_[edge.first].position, vertices_[edge.second].position);
   }
 
-  /// Whether opacity, which changes evenly along an edge, does so by much over a long way, or the bark's
-  /// place does where the edge comes out of the bearer.
+  /// Whether opacity, which changes evenly along an edge, does so by much over a long way, or where the edge
+  /// comes out of the bearer it is low or the bark's place may be wrong.
   bool is_coarse(const Edge& edge) const {
     const Cover& a = covers_[edge.first];
     const Cover& b = covers_[edge.second];
-    if (length(edge) <= kLongest * fade_) return false;
-    return (a.distance < 0.0f) != (b.distance < 0.0f) || std::abs(a.opacity - b.opacity) > kOpacityStep;
+    const bool comes_out = (a.distance < 0.0f) != (b.distance < 0.0f);
+    if (length(edge) > kLongest * fade_) return comes_out || std::abs(a.opacity - b.opacity) > kOpacityStep;
+    if (!comes_out || !is_thick_ || length(edge) <= kShortest * fade_) return false;
+    const float way_out = a.distance / (a.distance - b.distance);
+    return std::lerp(a.opacity, b.opacity, way_out) < kCovers;
   }
 
   /// Adds vertices where the lateral's own are too far apart for the bark to fade out between them.
@@ -232,8 +275,10 @@ class PatchMaker {
   const BarkStretches& stretches_;
   const Joint& joint_;
   const float repeats_;
-  const bool is_closed_;
+  const MeshMethod method_;
   const float fade_;
+  const bool is_thick_;
+  const double apothem_;  // of a cone of the bearer, in its radii: to the middle of a side
   const TriangleTree bearer_;
   std::vector<SurfaceVertex> vertices_;
   std::vector<Cover> covers_;  // of these
@@ -278,22 +323,23 @@ void append_patches(Mesh& mesh, const std::vector<Joint>& joints, const std::vec
 
 }  // namespace
 
-void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const float> repeats, bool is_closed) {
+void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const float> repeats,
+                      const MesherOptions& options) {
   const auto is_bark = [&](const MaterialRange& range) { return mesh.material(range).name == "bark"; };
   const auto bark = std::find_if(mesh.ranges.begin(), mesh.ranges.end(), is_bark);
   if (bark == mesh.ranges.end() || mesh.material(*bark).image.is_empty()) return;
 
   const std::vector<Joint> joints = find_joints(skeleton);
   const TrianglesOfNodes triangles(mesh, *bark, skeleton.node_count(), joints);
-  const BarkStretches stretches(skeleton);
+  const Tree tree{mesh, skeleton, options, BarkStretches(skeleton), std::ranges::max(skeleton.diameter)};
   std::vector<Patch> patches(joints.size());
   parallel_for(joints.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Joint& joint = joints[i];
       const std::vector<std::uint32_t> bearer = triangles.of(joint.older_nodes);
       if (bearer.empty()) continue;
-      patches[i] = PatchMaker(mesh, skeleton, stretches, joint, repeats[joint.older], is_closed, bearer)
-                       .make(triangles.of(joint.lateral_nodes));
+      patches[i] =
+          PatchMaker(tree, joint, repeats[joint.older], bearer).make(triangles.of(joint.lateral_nodes));
     }
   });
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "common/mesh/mesh.h"
+#include "common/mesh/mesher.h"
 #include "common/skeleton/skeleton.h"
 
 namespace ramify {
@@ -15,9 +15,10 @@ constexpr const char* kForkBark = "bark over forks";
 /// Appends to a mesh that is dressed in bark a last range, an overlay, of the triangles at the feet of
 /// laterals: just above them, in their bearer's texture, with colours whose alpha goes to 0 where the
 /// lateral's own bark is to be seen. Where the lateral has no vertices near enough for that, as on a cone,
-/// the overlay has more. Thin laterals have none. `repeats`: of bark_repeats(). `is_closed`: no wood lies
-/// within other wood. Does nothing without an image on the bark. O(n), and O(m log m) for the m triangles
-/// about forks; on all threads, the same for any number of them.
-void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const float> repeats, bool is_closed);
+/// the overlay has more. Thin laterals have none. `repeats`: of bark_repeats(). `options`: by which the mesh
+/// was made. Does nothing without an image on the bark. O(n), and O(m log m) for the m triangles about forks;
+/// on all threads, the same for any number of them.
+void append_fork_bark(Mesh& mesh, const Skeleton& skeleton, std::span<const float> repeats,
+                      const MesherOptions& options);
 
 }  // namespace ramify

@@ -39,8 +39,7 @@ TreeMesh make_tree_mesh(const Skeleton& skeleton, const Looks& looks, std::uint6
   }
   if (looks.leaves.is_on()) add_leaves(tree, skeleton, looks, seed);
   if (has_bark && has_fork_bark(looks.mesher)) {
-    append_fork_bark(tree.mesh, skeleton, bark_repeats(skeleton, looks.bark.tile_width),
-                     looks.mesher.method == MeshMethod::watertight);
+    append_fork_bark(tree.mesh, skeleton, bark_repeats(skeleton, looks.bark.tile_width), looks.mesher);
     append_overlay_tangents(tree.mesh);
   }
   return tree;

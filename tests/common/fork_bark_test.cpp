@@ -30,16 +30,18 @@ using namespace ramify::test;
 namespace {
 
 constexpr double kTrunk = 0.3;  // metres thick
+constexpr std::uint32_t kTrunkNodes = 6;
 
 /// A trunk of even width and a lateral that leaves it half way up.
 Skeleton fork(double angle_deg, double diameter, double azimuth_deg = 0.0) {
   Skeleton tree;
-  for (std::uint32_t i = 0; i <= 6; ++i) add_node(tree, {0, 0.5 * i, 0}, i == 0 ? kNoParent : i - 1, kTrunk);
+  for (std::uint32_t i = 0; i <= kTrunkNodes; ++i)
+    add_node(tree, {0, 0.5 * i, 0}, i == 0 ? kNoParent : i - 1, kTrunk);
   const double angle = radians(angle_deg);
   const double azimuth = radians(azimuth_deg);
   const Vec3 along(std::sin(angle) * std::cos(azimuth), std::cos(angle), std::sin(angle) * std::sin(azimuth));
   for (std::uint32_t i = 1; i <= 4; ++i)
-    add_node(tree, tree.position[3] + 0.4 * i * along, i == 1 ? 3 : 5 + i, diameter);
+    add_node(tree, tree.position[3] + 0.4 * i * along, i == 1 ? 3 : kTrunkNodes - 1 + i, diameter);
   assign_axes(tree);
   return tree;
 }
@@ -309,6 +311,49 @@ TEST_CASE("fork bark: it fades out evenly where a side goes straight out, withou
     for (std::size_t v = solid_part(mesh).vertex_count; v < mesh.vertex_count(); ++v) {
       CHECK(surface.nearest(mesh.positions[v]).distance2 < 0.001f * 0.001f);
       CHECK(glm::length(mesh.normals[v]) == Approx(1.0f));
+    }
+  }
+}
+
+TEST_CASE("fork bark: where a thick lateral comes out of the trunk, nothing of its own bark is seen") {
+  for (const MeshMethod method : {MeshMethod::smooth, MeshMethod::cones}) {
+    for (const double angle : {35.0, 60.0, 90.0}) {
+      const Mesh mesh = mesh_of(fork(angle, 0.15, 100.0), looks_with(method));
+      const MaterialRange* overlay = overlay_of(mesh);
+      REQUIRE(overlay != nullptr);
+      INFO(static_cast<int>(method) << ", " << angle << " degrees");
+      std::vector<std::uint32_t> trunk;
+      for (std::uint32_t t = 0; t < overlay->first_triangle; ++t) {
+        if (mesh.internodes[mesh.triangles[t][0]] <= kTrunkNodes) trunk.push_back(t);
+      }
+      const TriangleTree surface(mesh, trunk);
+      const auto outside = [&](const Vec3f& p) {  // metres, where the trunk's sides are flat
+        const NearestTriangle nearest = surface.nearest(p);
+        return std::copysign(std::sqrt(nearest.distance2), from_trunk(p) - from_trunk(nearest.point));
+      };
+      constexpr double kHidden = -0.006;  // metres: 12 sides lie 0.005 farther in
+      std::size_t ways_out = 0;
+      std::size_t hidden = 0;
+      double faintest = 1.0;
+      for (std::size_t t = overlay->first_triangle; t < mesh.triangles.size(); ++t) {
+        const Triangle& corners = mesh.triangles[t];
+        const auto is_hidden = [&](std::uint32_t v) { return from_trunk(mesh.positions[v]) < kHidden; };
+        hidden += std::ranges::all_of(corners, is_hidden);
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::uint32_t a = corners[i];
+          const std::uint32_t b = corners[(i + 1) % 3];
+          const double from = outside(mesh.positions[a]);
+          const double to = outside(mesh.positions[b]);
+          if (from >= 0.0 || to <= 0.0 || (is_hidden(a) && is_hidden(b))) continue;
+          ++ways_out;
+          const double opacity =
+              std::lerp(mesh.colors[a][3] / 255.0, mesh.colors[b][3] / 255.0, from / (from - to));
+          faintest = std::min(faintest, opacity);
+        }
+      }
+      CHECK(hidden == 0);
+      CHECK(ways_out > 10);
+      CHECK(faintest > 0.88);
     }
   }
 }
