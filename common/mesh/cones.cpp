@@ -118,8 +118,10 @@ class PartBuilder {
       const auto place = [&](double along) { return base + along * axis_ + radius(along) * from_center; };
       const auto height = [&](double at) { return place(at).y; };
       const double along = out_of_ground(low, high, part_.bands, band, height);
-      add_vertex(place(along), side * lean_cosine + axis_ * lean_sine, static_cast<double>(i) / sides_,
-                 v_on_cone(side, along + part_.sine * radius(along)));
+      const double x = along + part_.sine * radius(along);
+      const Vec3 normal = side * lean_cosine + axis_ * lean_sine;
+      add_vertex(place(along), normal_on_cone(normal, side, x), static_cast<double>(i) / sides_,
+                 v_on_cone(side, x));
     }
   }
 
@@ -144,16 +146,38 @@ class PartBuilder {
     return here;
   }
 
-  /// On one side of the cone, `x` metres from its base. Where the axis bends, cones meet in a plane: there
-  /// both have the same bark.
+  /// Where one side of the cone meets the cones before and after it, metres from its base: where the axis
+  /// bends, in the plane of the bend.
+  std::pair<double, double> ends(const Vec3& side) const {
+    const auto shift = [&](const Vec3& bend) { return glm::dot(side, bend) / glm::dot(part_.along, bend); };
+    return {part_.base_meeting - part_.base_radius * shift(part_.base_bend),
+            skeleton_.length(node_) + part_.end_meeting - part_.radius * shift(part_.bend)};
+  }
+
+  /// On one side of the cone, `x` metres from its base. Where cones meet both have the same bark.
   double v_on_cone(const Vec3& side, double x) const {
     const double length = skeleton_.length(node_);
     const double girth = std::numbers::pi * (part_.base_radius + part_.radius);
-    const auto shift = [&](const Vec3& bend) { return glm::dot(side, bend) / glm::dot(part_.along, bend); };
-    const double from = part_.base_meeting - part_.base_radius * shift(part_.base_bend);
-    const double to = length + part_.end_meeting - part_.radius * shift(part_.bend);
+    const auto [from, to] = ends(side);
     const double seen = std::max(to - from, kLeastBark * length);
     return part_.v + ((x - from) / seen - 1.0) * length / girth;
+  }
+
+  /// The cone's normal there. On the inner side of a bend, where cones meet in an edge, it leans into the
+  /// plane of that little by little, so that both have the same: no edge shows in the shading.
+  Vec3 normal_on_cone(const Vec3& normal, const Vec3& side, double x) const {
+    const auto [from, to] = ends(side);
+    const double half = std::max(0.5 * (to - from), 0.0);
+    const double last_ring = skeleton_.length(node_) / part_.bands;  // before the edge
+    const auto leant = [&](const Vec3& bend, double radius, double before_edge) {
+      const double reach = std::max(std::min(radius, half), 1e-9);
+      const double share = 1.0 - glm::smoothstep(std::min(last_ring, 0.5 * reach), reach, before_edge);
+      return bend * (share * glm::dot(normal, bend));
+    };
+    Vec3 turned = normal;
+    if (glm::dot(side, part_.base_bend) < 0.0) turned -= leant(part_.base_bend, part_.base_radius, x - from);
+    if (glm::dot(side, part_.bend) > 0.0) turned -= leant(part_.bend, part_.radius, to - x);
+    return turned;
   }
 
   /// Its poles lie along the internode, so that its corners meet those of the cone; at a bend within both

@@ -42,6 +42,15 @@ std::optional<std::pair<Triangle, Hit>> last_hit(const Mesh& mesh, const Vec3& f
   return last;
 }
 
+/// Of a mesh where a ray meets it.
+Vec3f normal_at(const Mesh& mesh, const std::pair<Triangle, Hit>& where) {
+  const auto& [triangle, hit] = where;
+  const auto normal_of = [&](std::size_t corner) { return mesh.normals[triangle[corner]]; };
+  return glm::normalize(normal_of(0) * static_cast<float>(1.0 - hit.second - hit.third) +
+                        normal_of(1) * static_cast<float>(hit.second) +
+                        normal_of(2) * static_cast<float>(hit.third));
+}
+
 /// How far the mesh goes from a point in a direction, a unit vector.
 double reach(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
   const auto last = last_hit(mesh, from, direction);
@@ -123,10 +132,7 @@ TEST_CASE("close-ups: cones of other tapers meet without a step, in outline, bar
       const auto& [triangle, at] = *hit;
       const auto v_of = [&](std::size_t corner) { return double{mesh.uvs[triangle[corner]].y}; };
       const double v = v_of(0) * (1.0 - at.second - at.third) + v_of(1) * at.second + v_of(2) * at.third;
-      const auto normal_of = [&](std::size_t corner) { return mesh.normals[triangle[corner]]; };
-      const Vec3f normal = glm::normalize(normal_of(0) * static_cast<float>(1.0 - at.second - at.third) +
-                                          normal_of(1) * static_cast<float>(at.second) +
-                                          normal_of(2) * static_cast<float>(at.third));
+      const Vec3f normal = normal_at(mesh, *hit);
       INFO(radii[2] << " m, at " << height << " m");
       if (before) {
         CHECK(std::abs(normal.y - normal_before.y) < 0.02f);
@@ -137,6 +143,37 @@ TEST_CASE("close-ups: cones of other tapers meet without a step, in outline, bar
       before = at.distance;
       v_before = v;
       normal_before = normal;
+    }
+  }
+}
+
+TEST_CASE("close-ups: cones that meet in the edge of a bend have the same shading there") {
+  const double turn = radians(47.0);
+  const Vec3 bend(std::sin(0.5 * turn), std::cos(0.5 * turn), 0);  // square to the plane of the edge
+  const Vec3 inwards(std::cos(0.5 * turn), -std::sin(0.5 * turn), 0);
+  // Near: internodes so short that there are rings about the edge. Else normals turn over the whole cone.
+  for (const double length : {0.1, 1.0}) {
+    Skeleton s;
+    for (std::uint32_t i = 0; i <= 8; ++i) {
+      const double from = (static_cast<double>(i) - 4.0) * length;
+      const Vec3 along = from < 0.0 ? kUp : Vec3(std::sin(turn), std::cos(turn), 0);
+      add_node(s, from * along, i == 0 ? kNoParent : i - 1, 0.3);
+    }
+    s.axis.assign(9, 0);
+    const Mesh mesh = build_mesh(s, {.method = MeshMethod::cones});
+    for (const double aside : {-0.9, -0.4, 0.0, 0.5, 1.0}) {
+      const Vec3 direction = inwards * std::cos(aside) + Vec3(0, 0, 1) * std::sin(aside);
+      INFO(length << " m, " << aside);
+      float before = 0.0f;
+      float jump = 0.0f;
+      for (double from_edge = -0.05; from_edge <= 0.05; from_edge += 0.002) {
+        const auto hit = last_hit(mesh, from_edge * bend, direction);
+        REQUIRE(hit);
+        const float along = glm::dot(normal_at(mesh, *hit), Vec3f(bend));
+        if (from_edge > -0.05) jump = std::max(jump, std::abs(along - before));
+        before = along;
+      }
+      CHECK(jump < 0.06f);
     }
   }
 }
