@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/mesh/wood.h"
+
 namespace ramify {
 namespace {
 
@@ -61,18 +63,32 @@ void round_bend(const Knot& before, const Knot& knot, const Knot& next, std::vec
   }
 }
 
-void trace_polyline(std::span<const Knot> knots, std::vector<LinePoint>& points) {
-  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+/// Parts the straight way to points[end], the first of a knot, into bands.
+void part_stretch(const Knot& knot, std::uint32_t bands, std::size_t end, std::vector<LinePoint>& points) {
+  const LinePoint from = points[end - 1];
+  const LinePoint to = points[end];
+  points.insert(points.begin() + static_cast<std::ptrdiff_t>(end), bands - 1, LinePoint{});
+  for (std::uint32_t band = 1; band < bands; ++band) {
+    const float t = static_cast<float>(band) / static_cast<float>(bands);
+    points[end + band - 1] = {glm::mix(from.position, to.position, t), knot.along,
+                              glm::mix(from.radius, to.radius, t), knot.node};
+  }
+}
+
+void trace_polyline(std::span<const Knot> knots, bool parts_tapers, std::vector<LinePoint>& points) {
+  for (std::size_t i = 1; i < knots.size(); ++i) {
     const Knot& knot = knots[i];
-    if (knot.rings > 1) {
+    const std::size_t first = points.size();
+    if (i + 1 == knots.size()) {
+      add_point(points, knot.position, knot.along, knot.radius, knot.node);
+    } else if (knot.rings > 1) {
       round_bend(knots[i - 1], knot, knots[i + 1], points);
     } else {
       add_point(points, knot.position, normalized_or(knot.along + knots[i + 1].along, knot.along),
                 knot.radius, knot.node);
     }
+    if (parts_tapers) part_stretch(knot, bands_of_taper(knots, i), first, points);
   }
-  const Knot& tip = knots.back();
-  add_point(points, tip.position, tip.along, tip.radius, tip.node);
 }
 
 /// Cubic Hermite curves with the spline's tangents; the width changes evenly.
@@ -126,6 +142,11 @@ std::uint32_t rings_in_bend(const Knot& knot, const Knot& next, float turn_max) 
   if (glm::dot(difference, difference) < turn_max * turn_max) return 1;
   return static_cast<std::uint32_t>(
       std::min(kRingsMax, 1.0f + std::ceil(turn_between(knot.along, next.along) / turn_max)));
+}
+
+std::uint32_t bands_of_taper(std::span<const Knot> knots, std::size_t i) {
+  const bool has_collar = i == 1 && knots[1].room < knots[1].length;
+  return has_collar ? 1 : bands_of_taper(double{knots[i - 1].radius}, double{knots[i].radius});
 }
 
 float bend_reach(float radius, float room_before, float room_after) {
@@ -183,10 +204,11 @@ void part_rings(std::vector<LinePoint>& points, std::size_t first) {
   }
 }
 
-void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points) {
+void trace_line(std::span<const Knot> knots, CentreLine line, bool parts_tapers,
+                std::vector<LinePoint>& points) {
   add_point(points, knots[0].position, knots[0].along, knots[0].radius, knots[0].node);
   if (line == CentreLine::polyline) {
-    trace_polyline(knots, points);
+    trace_polyline(knots, parts_tapers, points);
   } else {
     trace_spline(knots, points);
   }

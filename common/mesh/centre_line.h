@@ -67,6 +67,9 @@ std::uint32_t rings_in_bend(const Knot& knot, const Knot& next, float turn_max);
 /// `slack`, metres, at a single ring.
 void count_rings(std::span<Knot> knots, CentreLine line, float turn_max, float slack);
 
+/// Bands of the stretch that leads to a knot, where its width may change much: a collar's is not parted.
+std::uint32_t bands_of_taper(std::span<const Knot> knots, std::size_t i);
+
 /// How far from a knot the line begins to turn, metres, where a polyline is rounded.
 float bend_reach(float radius, float room_before, float room_after);
 
@@ -80,7 +83,9 @@ Vec3f spline_tangent(std::span<const Knot> knots, std::size_t i);
 /// of a bend too: what is left of a turn comes with the next ring. Where the line turns back there is no way.
 void part_rings(std::vector<LinePoint>& points, std::size_t first);
 
-/// Appends the points of the line to `points`, knots[0].rings = 1 point for the first knot.
-void trace_line(std::span<const Knot> knots, CentreLine line, std::vector<LinePoint>& points);
+/// Appends the points of the line to `points`, knots[0].rings = 1 point for the first knot. With
+/// `parts_tapers` a polyline has more of them on stretches that taper much.
+void trace_line(std::span<const Knot> knots, CentreLine line, bool parts_tapers,
+                std::vector<LinePoint>& points);
 
 }  // namespace ramify

@@ -115,7 +115,7 @@ void find_winding_axes(const Skeleton& skeleton, const std::vector<bool>& going_
     part.winds = winds[first[node]];
     if (!part.winds || tolerance > 0.0) continue;
     const double times = kWindingSides * std::sqrt(plan.parts[first[node]].radius / greatest);
-    part.bands = kWindingBands;
+    part.bands = std::max(part.bands, kWindingBands);
     part.sides = part.sphere_sides =
         static_cast<std::uint32_t>(std::lround(std::max(times, kLeastWindingSides) * part.axis_sides));
   }
@@ -154,6 +154,8 @@ ConesPlan plan_within(double tolerance, const Skeleton& skeleton, const std::vec
     part.has_cone = is_kept[node] && length > std::abs(part.base_radius - part.radius) + thinnest;
     if (part.has_cone) part.sine = (part.base_radius - part.radius) / length;
     part.base_lean = part.end_lean = std::asin(part.sine);
+    if (tolerance <= 0.0 && part.base_radius >= kThickTaper * 0.5 * greatest)
+      part.bands = bands_of_taper(part.base_radius, part.radius);
     if (going_on[node]) go_on(below, part, tolerance <= 0.0);
     if (skeleton.is_root(parent) && part.along.y < 0.0) plan.has_roots[parent] = true;
   }

@@ -169,12 +169,21 @@ class Planner {
   /// even.
   bool is_even(const Axis& axis) {
     if (tolerance_ > 0.0f || plan_.line != CentreLine::polyline || axis.is_trunk()) return false;
-    if (!has_marks_only(axis, kIsNear)) return false;
+    if (!has_marks_only(axis, kIsNear) || tapers_much(axis)) return false;
     if ((axes_.marks[axis.first + 1] & kIsNear) == 0) return true;
     knots_.clear();
     append_knot(knots_, axes_, axis.first);
     append_knot(knots_, axes_, axis.first + 1);
     return !is_buried(axis, knots_[1]);
+  }
+
+  /// Of the thick ones.
+  bool tapers_much(const Axis& axis) const {
+    if (tolerance_ > 0.0f || axis.radius < kThickTaper * axes_.thickest) return false;
+    for (std::uint32_t point = axis.first + 2; point < axis.end(); ++point) {
+      if (bands_of_taper(axes_.points[point - 1].radius, axes_.points[point].radius) > 1) return true;
+    }
+    return false;
   }
 
   /// Whether no point of an axis has another mark. Most axes have few points: these go without a loop, whose
@@ -202,8 +211,15 @@ class Planner {
       knots_[1].room *= kRoomBesideCollar;
     }
     count_rings(knots_, plan_.line, turn_max_, 0.5f * tolerance_);
+    tube.tapers = tapers_much(axis);
     std::size_t rings = 1;
     for (std::size_t i = 1; i < knots_.size(); ++i) {
+      const std::uint32_t bands = tube.tapers ? bands_of_taper(knots_, i) : 1;
+      if (plan_.line == CentreLine::polyline) {
+        rings += bands - 1;
+      } else {
+        knots_[i].rings = std::max(knots_[i].rings, bands);
+      }
       plan_.rings[knots_[i].point] = static_cast<std::uint8_t>(knots_[i].rings);
       rings += knots_[i].rings;
     }
@@ -348,7 +364,7 @@ void collect_knots(const TubePlan& plan, std::size_t tube, std::vector<Knot>& kn
 
 RootFlare trace_tube(const TubePlan& plan, const Tube& tube, const std::vector<Knot>& knots,
                      std::vector<LinePoint>& points) {
-  trace_line(knots, plan.line, points);
+  trace_line(knots, plan.line, tube.tapers, points);
   // Twigs are most of a tree, and few have arcs.
   if (tube.sides > 3 || points.size() > knots.size()) part_rings(points, 1);
   if (tube.is_closed && !tube.has_flare) stand_on_ground(points, kFootHeight * knots[0].radius);
@@ -404,7 +420,7 @@ Fork fork_at(const TubePlan& plan, std::size_t lateral, int moved_bases) {
     }
     knots[1].room *= kRoomBesideCollar;
   }
-  trace_line(knots, plan.line, fork.line);
+  trace_line(knots, plan.line, tube.tapers, fork.line);
   fork.has_tip = point == bearer.end();
 
   // The place on that line.

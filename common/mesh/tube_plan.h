@@ -37,6 +37,7 @@ struct Tube {
   bool is_pointed;  // ends in a point at its last node; else in a tip beyond it
   bool is_plain;    // see PlainTubeWriter
   bool is_low;      // reaches down to the ground
+  bool tapers;      // much, on some stretch: that has rings of its own
   std::size_t first_vertex;
   std::size_t first_triangle;
 

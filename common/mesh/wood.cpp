@@ -56,6 +56,15 @@ std::uint32_t side_count(double diameter, double greatest, const MesherOptions& 
   return static_cast<std::uint32_t>(std::clamp(sides, options.sides_min, options.sides_max));
 }
 
+std::uint32_t bands_of_taper(double base_radius, double radius) {
+  constexpr double least = 1.5;  // widths to one another
+  constexpr double step = 0.5;   // in widths of the thinner end
+  constexpr double most = 16.0;
+  const auto [thin, thick] = std::minmax(base_radius, radius);
+  if (thick <= least * thin) return 1;
+  return static_cast<std::uint32_t>(std::min(std::ceil((thick - thin) / (step * thin)), most));
+}
+
 const Vec2f* unit_circle(std::uint32_t sides) {
   constexpr std::uint32_t most = 128;
   struct Circles {

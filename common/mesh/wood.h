@@ -21,6 +21,13 @@ void finish_wood(Mesh& mesh);
 /// root of the width, so that the error of the silhouette is spread evenly.
 std::uint32_t side_count(double diameter, double greatest, const MesherOptions& options);
 
+/// Bands that a cone is parted into, evenly: a side of one that tapers much is no rectangle, and its two
+/// triangles would squeeze and widen what lies on it.
+std::uint32_t bands_of_taper(double base_radius, double radius);
+
+/// Of the thickest wood: on thinner wood nobody sees that.
+constexpr double kThickTaper = 0.1;
+
 /// Points of the unit circle of so many sides, at most 128, one a side. O(1) after the first call.
 const Vec2f* unit_circle(std::uint32_t sides);
 

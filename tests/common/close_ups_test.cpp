@@ -178,6 +178,46 @@ TEST_CASE("close-ups: cones that meet in the edge of a bend have the same shadin
   }
 }
 
+TEST_CASE("close-ups: where thick wood tapers much, bark is as wide on all of a side") {
+  const std::array methods = {MesherOptions{}, MesherOptions{.centre_line = CentreLine::catmull_rom},
+                              MesherOptions{.method = MeshMethod::cones}};
+  for (std::size_t method = 0; method < methods.size(); ++method) {
+    for (const double lean : {0.0, 0.4}) {
+      Skeleton s;
+      for (std::uint32_t i = 0; i < 6; ++i) {
+        const double diameter = i < 3 ? 0.6 : 0.1;
+        add_node(s, {0, 1.0 * i, i > 2 ? lean * (i - 2) : 0.0}, i == 0 ? kNoParent : i - 1, diameter);
+      }
+      s.axis.assign(6, 0);
+      const Mesh mesh = build_mesh(s, methods[method]);
+      const Vec3 from(0, 2, 0);
+      const Vec3 along = glm::normalize(Vec3(0, 1, lean));
+      double widest = 0.0;  // girths; once around should be one
+      double narrowest = 10.0;
+      std::size_t count = 0;
+      for (const Triangle& corners : mesh.triangles) {
+        const auto position = [&](std::size_t i) { return Vec3(mesh.positions[corners[i]]); };
+        const auto u = [&](std::size_t i) { return double{mesh.uvs[corners[i]].x}; };
+        const Vec3 middle = (position(0) + position(1) + position(2)) / 3.0;
+        if (middle.y < 2.32 || middle.y > 2.7) continue;  // beyond the sphere
+        const Vec3 first = position(1) - position(0);
+        const Vec3 second = position(2) - position(0);
+        const Vec3 area = glm::cross(first, second);
+        const Vec3 change = glm::cross(area, second * (u(1) - u(0)) - first * (u(2) - u(0)));
+        const double radius = glm::length(glm::cross(middle - from, along));
+        const double around = 2.0 * std::numbers::pi * radius * glm::length(change) / glm::dot(area, area);
+        widest = std::max(widest, around);
+        narrowest = std::min(narrowest, around);
+        ++count;
+      }
+      INFO("method " << method << ", leaning by " << lean);
+      CHECK(count > 20);
+      CHECK(widest < 1.35);
+      CHECK(narrowest > 0.7);
+    }
+  }
+}
+
 TEST_CASE("close-ups: the tips of cones are round, those of twigs of few sides too") {
   for (const int sides : {3, 4, 6, 8, 12}) {
     const Mesh mesh =
