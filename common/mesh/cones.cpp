@@ -101,28 +101,48 @@ class PartBuilder {
     }
   }
 
-  /// Where the cone touches spheres about points of its axis: all one, but for sides that come out of the
-  /// ground.
+  /// Evenly between the ends of each side, but for sides that come out of the ground.
   void add_ring(std::uint32_t band) {
     const Vec3& base = skeleton_.position[skeleton_.parent[node_]];
-    const double low = -part_.base_gap;
-    const double high = skeleton_.length(node_) + part_.end_gap;
-    const double cosine = std::sqrt(1.0 - part_.sine * part_.sine);
     const double lean = glm::mix(part_.base_lean, part_.end_lean, static_cast<double>(band) / part_.bands);
     const double lean_cosine = std::cos(lean);
     const double lean_sine = std::sin(lean);
-    const auto radius = [&](double along) { return part_.base_radius - part_.sine * along; };
     for (std::uint32_t i = 0; i <= sides_; ++i) {
       const Vec3 side = outwards(i % sides_);
-      const Vec3 from_center = side * cosine + axis_ * part_.sine;
-      const auto place = [&](double along) { return base + along * axis_ + radius(along) * from_center; };
-      const auto height = [&](double at) { return place(at).y; };
-      const double along = out_of_ground(low, high, part_.bands, band, height);
-      const double x = along + part_.sine * radius(along);
+      const Ends at = ends(side);
+      const auto [low, high] = corners(side, at);
+      const auto height = [&](double share) { return base.y + glm::mix(low, high, share).y; };
+      const Vec3 place = glm::mix(low, high, out_of_ground(0.0, 1.0, part_.bands, band, height));
+      const double x = glm::dot(place, axis_);
       const Vec3 normal = side * lean_cosine + axis_ * lean_sine;
-      add_vertex(place(along), normal_on_cone(normal, side, x), static_cast<double>(i) / sides_,
-                 v_on_cone(side, x));
+      add_vertex(base + place, normal_on_cone(normal, side, x, at), static_cast<double>(i) / sides_,
+                 v_on_cone(x, at));
     }
+  }
+
+  /// Where one side of the cone meets the cones before and after it, metres from its base: where the axis
+  /// bends, in the plane of the bend.
+  struct Ends {
+    double from;
+    double to;
+  };
+
+  Ends ends(const Vec3& side) const {
+    const auto shift = [&](const Vec3& bend) { return glm::dot(side, bend) / glm::dot(part_.along, bend); };
+    return {part_.base_meeting - part_.base_radius * shift(part_.base_bend),
+            skeleton_.length(node_) + part_.end_meeting - part_.radius * shift(part_.bend)};
+  }
+
+  /// The first and the last point of a side of the cone, seen from the node below: where it touches spheres
+  /// about points of its axis, or is cut.
+  std::pair<Vec3, Vec3> corners(const Vec3& side, const Ends& at) const {
+    const Vec3 from_center = side * std::sqrt(1.0 - part_.sine * part_.sine) + axis_ * part_.sine;
+    const auto touching = [&](double along) {
+      return along * axis_ + (part_.base_radius - part_.sine * along) * from_center;
+    };
+    return {part_.base_is_cut ? at.from * axis_ + part_.base_radius * side : touching(-part_.base_gap),
+            part_.end_is_cut ? at.to * axis_ + part_.radius * side
+                             : touching(skeleton_.length(node_) + part_.end_gap)};
   }
 
   /// Where the vertex `index` is of a line on the surface with one at each of `steps` from `low` to `high`:
@@ -146,28 +166,18 @@ class PartBuilder {
     return here;
   }
 
-  /// Where one side of the cone meets the cones before and after it, metres from its base: where the axis
-  /// bends, in the plane of the bend.
-  std::pair<double, double> ends(const Vec3& side) const {
-    const auto shift = [&](const Vec3& bend) { return glm::dot(side, bend) / glm::dot(part_.along, bend); };
-    return {part_.base_meeting - part_.base_radius * shift(part_.base_bend),
-            skeleton_.length(node_) + part_.end_meeting - part_.radius * shift(part_.bend)};
-  }
-
-  /// On one side of the cone, `x` metres from its base. Where cones meet both have the same bark.
-  double v_on_cone(const Vec3& side, double x) const {
+  /// On a side of the cone, `x` metres from its base. Where cones meet both have the same bark.
+  double v_on_cone(double x, const Ends& at) const {
     const double length = skeleton_.length(node_);
     const double girth = std::numbers::pi * (part_.base_radius + part_.radius);
-    const auto [from, to] = ends(side);
-    const double seen = std::max(to - from, kLeastBark * length);
-    return part_.v + ((x - from) / seen - 1.0) * length / girth;
+    const double seen = std::max(at.to - at.from, kLeastBark * length);
+    return part_.v + ((x - at.from) / seen - 1.0) * length / girth;
   }
 
-  /// The cone's normal there. On the inner side of a bend, where cones meet in an edge, it leans into the
-  /// plane of that little by little, so that both have the same: no edge shows in the shading.
-  Vec3 normal_on_cone(const Vec3& normal, const Vec3& side, double x) const {
-    const auto [from, to] = ends(side);
-    const double half = std::max(0.5 * (to - from), 0.0);
+  /// The cone's normal there. Where cones meet in the edge of a bend, on its inner side or all around, it
+  /// leans into the plane of that little by little, so that both have the same: no edge shows in the shading.
+  Vec3 normal_on_cone(const Vec3& normal, const Vec3& side, double x, const Ends& at) const {
+    const double half = std::max(0.5 * (at.to - at.from), 0.0);
     const double last_ring = skeleton_.length(node_) / part_.bands;  // before the edge
     const auto leant = [&](const Vec3& bend, double radius, double before_edge) {
       const double reach = std::max(std::min(radius, half), 1e-9);
@@ -175,8 +185,10 @@ class PartBuilder {
       return bend * (share * glm::dot(normal, bend));
     };
     Vec3 turned = normal;
-    if (glm::dot(side, part_.base_bend) < 0.0) turned -= leant(part_.base_bend, part_.base_radius, x - from);
-    if (glm::dot(side, part_.bend) > 0.0) turned -= leant(part_.bend, part_.radius, to - x);
+    if (part_.base_is_cut || glm::dot(side, part_.base_bend) < 0.0)
+      turned -= leant(part_.base_bend, part_.base_radius, x - at.from);
+    if (part_.end_is_cut || glm::dot(side, part_.bend) > 0.0)
+      turned -= leant(part_.bend, part_.radius, at.to - x);
     return turned;
   }
 
@@ -215,11 +227,11 @@ class PartBuilder {
         const auto at = [&](double latitude) {
           return side * std::cos(latitude) + axis_ * std::sin(latitude);
         };
-        const auto height = [&](double latitude) { return center.y + part_.radius * at(latitude).y; };
+        const auto height = [&](double latitude) { return center.y + part_.sphere_radius * at(latitude).y; };
         normal = at(out_of_ground(south, -south, bands, band, height));
       }
       const glm::dvec2 uv = on_sphere(static_cast<double>(i) / sides_, normal);
-      add_vertex(center + part_.radius * normal, normal, uv.x, uv.y);
+      add_vertex(center + part_.sphere_radius * normal, normal, uv.x, uv.y);
     }
   }
 
@@ -281,7 +293,7 @@ class PartBuilder {
   void add_pole(double sign, std::uint32_t side) {
     const Vec3 normal = axis_ * sign;
     const double u = (side + 0.5) / sides_;
-    add_vertex(skeleton_.position[node_] + part_.radius * normal, normal, u, on_sphere(u, normal).y);
+    add_vertex(skeleton_.position[node_] + part_.sphere_radius * normal, normal, u, on_sphere(u, normal).y);
   }
 
   const Skeleton& skeleton_;

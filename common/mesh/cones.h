@@ -9,7 +9,9 @@
 namespace ramify {
 
 /// Each cone touches the spheres at its ends, so that no edge shows between them; where one sphere holds the
-/// other, there is no cone. A lateral's first cone is as wide at its base as at its end. The parts overlap.
+/// other, there is no cone. Where an axis bends between 8 and 60 degrees, its cones end in the plane of the
+/// bend and hide the sphere: of few sides it would stand out as a knuckle. Not where internodes are about as
+/// short as they are thick. A lateral's first cone is as wide at its base as at its end. The parts overlap.
 /// A skeleton without internodes gives an empty mesh. O(n), on all threads.
 Mesh cones_mesh(const Skeleton& skeleton, const MesherOptions& options);
 

@@ -15,6 +15,12 @@ namespace {
 // sides.
 const double kStraight = std::cos(radians(8.0));
 
+// Cosine down to which cones of a bend are cut: beyond, they would end in a spike.
+const double kCut = std::cos(radians(60.0));
+
+// Of the length of a cone: a cut reaches no farther from its end.
+constexpr double kCutReach = 0.3;
+
 // Half the angle between the sides of two cones that follow one another: beyond, what is between is a
 // shoulder.
 const double kShoulder = radians(20.0);
@@ -87,6 +93,21 @@ void join_cones(NodePart& below, NodePart& above) {
   above.base_gap = below.radius * std::tan(half_apart) / std::cos(high);
 }
 
+/// Lets the cones of a bend end in its plane, but where that would be far from the node. `shorter`: of both
+/// internodes, metres.
+void cut_cones(NodePart& below, NodePart& above, double shorter) {
+  const double cosine = glm::dot(below.along, above.along);
+  const double reach = below.radius * std::sqrt((1.0 - cosine) / (1.0 + cosine));
+  const bool is_steep = std::max(std::abs(below.sine), std::abs(above.sine)) > std::sin(kShoulder);
+  if (cosine >= kStraight || cosine < kCut || is_steep || reach > kCutReach * shorter) return;
+  below.end_is_cut = above.base_is_cut = true;
+  below.sphere_sides = below.sides;
+  // Within all facets.
+  below.sphere_radius = below.radius * std::cos(std::numbers::pi / below.sides) * std::cos(kShoulder);
+  below.end_meeting = above.base_meeting = 0.0;
+  below.end_lean = above.base_lean = 0.5 * (below.end_lean + above.base_lean);
+}
+
 /// Lets an axis go on from one internode to the next: in one bark, but where it turns back.
 void go_on(NodePart& below, NodePart& part, bool is_fine) {
   below.is_tip = false;
@@ -121,6 +142,18 @@ void find_winding_axes(const Skeleton& skeleton, const std::vector<bool>& going_
   }
 }
 
+/// Of axes that do not wind.
+void cut_bends(const Skeleton& skeleton, const std::vector<bool>& going_on, ConesPlan& plan) {
+  for (std::uint32_t node = 0; node < plan.parts.size(); ++node) {
+    if (!going_on[node]) continue;
+    const std::uint32_t parent = skeleton.parent[node];
+    NodePart& part = plan.parts[node];
+    NodePart& below = plan.parts[parent];
+    if (part.winds || !part.has_cone || !below.has_cone) continue;
+    cut_cones(below, part, std::min(skeleton.length(parent), skeleton.length(node)));
+  }
+}
+
 /// With a tolerance, metres, axes that reach no farther are left out, like spheres of its size.
 ConesPlan plan_within(double tolerance, const Skeleton& skeleton, const std::vector<bool>& going_on,
                       const MesherOptions& options) {
@@ -132,7 +165,7 @@ ConesPlan plan_within(double tolerance, const Skeleton& skeleton, const std::vec
   plan.has_roots.assign(skeleton.root_count(), false);
   for (std::uint32_t node = 0; node < plan.parts.size(); ++node) {
     NodePart& part = plan.parts[node];
-    part.radius = std::max(0.5 * skeleton.diameter[node], thinnest);
+    part.radius = part.sphere_radius = std::max(0.5 * skeleton.diameter[node], thinnest);
     part.axis_sides = going_on[node] ? plan.parts[skeleton.parent[node]].axis_sides
                                      : side_count(skeleton.diameter[node], greatest, options);
     part.sides = part.sphere_sides = sides_within(part.axis_sides, part.radius, tolerance);
@@ -160,6 +193,7 @@ ConesPlan plan_within(double tolerance, const Skeleton& skeleton, const std::vec
     if (skeleton.is_root(parent) && part.along.y < 0.0) plan.has_roots[parent] = true;
   }
   find_winding_axes(skeleton, going_on, tolerance, plan);
+  if (tolerance <= 0.0) cut_bends(skeleton, going_on, plan);
   for (NodePart& part : plan.parts) {
     part.first_vertex = plan.vertex_count;
     part.first_triangle = plan.triangle_count;

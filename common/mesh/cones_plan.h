@@ -22,9 +22,10 @@ struct NodePart {
   Vec3 bend;       // unit, of the axis at the node: halfway from this internode's direction to the next one's
   Vec3 base_bend;  // the same where the cone begins; a lateral's begins straight
   double v = 0.0;
-  double radius = 0.0;       // of the sphere, and of the cone where it ends
-  double base_radius = 0.0;  // of the cone
-  double sine = 0.0;         // of its taper: radius that it loses along its side
+  double radius = 0.0;         // of the cone where it ends
+  double sphere_radius = 0.0;  // the same, or less where the sphere is hidden
+  double base_radius = 0.0;    // of the cone
+  double sine = 0.0;           // of its taper: radius that it loses along its side
   // Cones that follow one another touch the sphere between them in two circles, and meet at a height between
   // these: above the node, along the axis, metres.
   double base_meeting = 0.0;
@@ -36,6 +37,10 @@ struct NodePart {
   // cones of different taper meet halfway between both, so that no edge shows.
   double base_lean = 0.0;
   double end_lean = 0.0;
+  // Whether the cone ends in the plane of the bend there, in the same polygon as the next one begins: no
+  // sphere is to be seen.
+  bool base_is_cut = false;
+  bool end_is_cut = false;
   bool has_cone = false;
   bool has_sphere = false;
   bool is_tip = false;           // the axis ends here

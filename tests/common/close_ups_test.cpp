@@ -42,13 +42,14 @@ std::optional<std::pair<Triangle, Hit>> last_hit(const Mesh& mesh, const Vec3& f
   return last;
 }
 
-/// Of a mesh where a ray meets it.
-Vec3f normal_at(const Mesh& mesh, const std::pair<Triangle, Hit>& where) {
+/// What vertices have, where a ray meets the mesh.
+template <class T>
+T mixed_at(const BulkVector<T>& of_vertices, const std::pair<Triangle, Hit>& where) {
   const auto& [triangle, hit] = where;
-  const auto normal_of = [&](std::size_t corner) { return mesh.normals[triangle[corner]]; };
-  return glm::normalize(normal_of(0) * static_cast<float>(1.0 - hit.second - hit.third) +
-                        normal_of(1) * static_cast<float>(hit.second) +
-                        normal_of(2) * static_cast<float>(hit.third));
+  const auto second = static_cast<float>(hit.second);
+  const auto third = static_cast<float>(hit.third);
+  return of_vertices[triangle[0]] * (1.0f - second - third) + of_vertices[triangle[1]] * second +
+         of_vertices[triangle[2]] * third;
 }
 
 /// How far the mesh goes from a point in a direction, a unit vector.
@@ -129,10 +130,9 @@ TEST_CASE("close-ups: cones of other tapers meet without a step, in outline, bar
     for (double height = 0.101; height < 1.1; height += step) {  // beside the nodes, where spheres touch
       const auto hit = last_hit(mesh, {0, height, 0}, outwards);
       REQUIRE(hit);
-      const auto& [triangle, at] = *hit;
-      const auto v_of = [&](std::size_t corner) { return double{mesh.uvs[triangle[corner]].y}; };
-      const double v = v_of(0) * (1.0 - at.second - at.third) + v_of(1) * at.second + v_of(2) * at.third;
-      const Vec3f normal = normal_at(mesh, *hit);
+      const Hit& at = hit->second;
+      const double v = mixed_at(mesh.uvs, *hit).y;
+      const Vec3f normal = glm::normalize(mixed_at(mesh.normals, *hit));
       INFO(radii[2] << " m, at " << height << " m");
       if (before) {
         CHECK(std::abs(normal.y - normal_before.y) < 0.02f);
@@ -169,11 +169,49 @@ TEST_CASE("close-ups: cones that meet in the edge of a bend have the same shadin
       for (double from_edge = -0.05; from_edge <= 0.05; from_edge += 0.002) {
         const auto hit = last_hit(mesh, from_edge * bend, direction);
         REQUIRE(hit);
-        const float along = glm::dot(normal_at(mesh, *hit), Vec3f(bend));
+        const float along = glm::dot(glm::normalize(mixed_at(mesh.normals, *hit)), Vec3f(bend));
         if (from_edge > -0.05) jump = std::max(jump, std::abs(along - before));
         before = along;
       }
       CHECK(jump < 0.06f);
+    }
+  }
+}
+
+TEST_CASE("close-ups: by cones nothing stands out of a bend, and bark and shading run on through it") {
+  for (const int sides : {3, 5, 12}) {
+    for (const double turn_deg : {15.0, 35.0, 55.0}) {
+      for (const double end : {0.08, 0.1}) {  // metres thick
+        const double turn = radians(turn_deg);
+        const Vec3 bend(std::sin(0.5 * turn), std::cos(0.5 * turn), 0);
+        const Vec3 inwards(std::cos(0.5 * turn), -std::sin(0.5 * turn), 0);
+        Skeleton s;
+        add_node(s, {0, -1, 0}, kNoParent, 0.1);
+        add_node(s, {0, 0, 0}, 0, 0.1);
+        add_node(s, {std::sin(turn), std::cos(turn), 0}, 1, end);
+        s.axis = {0, 0, 0};
+        const Mesh mesh =
+            build_mesh(s, {.method = MeshMethod::cones, .sides_min = sides, .sides_max = sides});
+        CHECK(flipped_triangles(mesh) == 0);
+        for (double aside = 0.1; aside < 2.0 * std::numbers::pi; aside += 0.3) {
+          INFO(sides << " sides, " << turn_deg << " degrees, " << end << " m, " << aside);
+          const Vec3 direction = inwards * std::cos(aside) + Vec3(0, 0, 1) * std::sin(aside);
+          constexpr double step = 0.002;
+          std::optional<std::pair<Triangle, Hit>> before;
+          for (double from_edge = -0.04; from_edge <= 0.04; from_edge += step) {
+            const auto hit = last_hit(mesh, from_edge * bend, direction);
+            REQUIRE(hit);
+            if (before) {
+              const Vec3f turned = mixed_at(mesh.normals, *hit) - mixed_at(mesh.normals, *before);
+              CHECK(std::abs(glm::dot(turned, Vec3f(bend))) < 0.03f);
+              CHECK(std::abs(hit->second.distance - before->second.distance) < 1.4 * step);
+              CHECK(std::abs(mixed_at(mesh.uvs, *hit).y - mixed_at(mesh.uvs, *before).y) <
+                    3.0 * step / (0.1 * 3.14));
+            }
+            before = hit;
+          }
+        }
+      }
     }
   }
 }
@@ -453,11 +491,7 @@ namespace {
 Vec2f outermost_uv(const Mesh& mesh, const Vec3& from, const Vec3& direction) {
   const auto last = last_hit(mesh, from, direction);
   REQUIRE(last);
-  const auto& [corners, hit] = *last;
-  const auto second = static_cast<float>(hit.second);
-  const auto third = static_cast<float>(hit.third);
-  return mesh.uvs[corners[0]] * (1.0f - second - third) + mesh.uvs[corners[1]] * second +
-         mesh.uvs[corners[2]] * third;
+  return mixed_at(mesh.uvs, *last);
 }
 
 }  // namespace
