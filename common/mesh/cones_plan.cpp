@@ -84,7 +84,7 @@ void join_cones(NodePart& below, NodePart& above) {
   const double high = above.base_lean;
   const double half_apart = 0.5 * (high - low);
   below.end_meeting = above.base_meeting = below.radius * std::sin(0.5 * (low + high)) / std::cos(half_apart);
-  // At a bend the sphere is seen in any case; as a shoulder it is rounder than an edge.
+  // At a bend the sphere is seen, unless both are cut; as a shoulder it is rounder than an edge.
   const bool shows_sphere = half_apart > kShoulder || glm::dot(below.along, above.along) < kStraight;
   if (shows_sphere) return;
   below.end_lean = above.base_lean = 0.5 * (low + high);
